@@ -1,0 +1,205 @@
+//! What a Lie group is.
+
+use core::fmt::Debug;
+
+use num_traits::Zero;
+
+use crate::{Jet, NotUnique, OutsideChart, Scalar, VectorSpace, dense};
+
+/// The group `G` with its numbers replaced by `S`.
+pub type Over<G, S> = <G as LieGroup>::WithScalar<S>;
+
+/// The algebra of `G` over the scalar `S`.
+pub type AlgebraOver<G, S> = <Over<G, S> as LieGroup>::Algebra;
+
+/// The dual of the algebra of `G` over the scalar `S`.
+pub type DualOver<G, S> = <Over<G, S> as LieGroup>::Dual;
+
+/// A Lie group: elements, algebra, dual, and the maps between them.
+///
+/// Conventions (see the [crate's notation](crate#notation)): left trivialisation, $\dot g = g\,\xi$;
+/// $\mathrm{Ad}_g \xi = g \xi g^{-1}$; $\mathrm{ad}_\xi \eta = [\xi, \eta]$;
+/// $\langle \mathrm{Ad}^*_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}_g \xi\rangle$ and
+/// $\langle \mathrm{ad}^*_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}_\xi \eta\rangle$;
+/// differentials are left-trivialised, $\mathrm d\exp_\xi \eta = \exp(-\xi)\, \frac{d}{ds}\big|_0 \exp(\xi + s\eta)$.
+///
+/// A type is a *family* over scalars: [`WithScalar`](Self::WithScalar) names its relatives, so one formula
+/// runs on floats, dual numbers and SIMD lanes. Write the required items for a group of your own and call
+/// [`laws::check`](crate::laws::check) on a few elements: it proves them. All else has a default; where speed
+/// counts, replace the default by a closed form, and the laws prove that too.
+///
+/// The `*_into` methods write into an existing element of the same shape; run-time-sized groups override
+/// them so that integrators step without allocating.
+pub trait LieGroup: Clone + Debug + PartialEq {
+    /// The numbers.
+    type Scalar: Scalar;
+    /// The Lie algebra $\mathfrak g$.
+    type Algebra: VectorSpace<Scalar = Self::Scalar>;
+    /// The dual $\mathfrak g^*$, paired by coordinates.
+    type Dual: VectorSpace<Scalar = Self::Scalar>;
+    /// The same group over another scalar.
+    type WithScalar<S: Scalar>: LieGroup<Scalar = S>;
+
+    /// The zero of the algebra, of this element's shape.
+    fn zero_algebra(&self) -> Self::Algebra;
+
+    /// The zero of the dual, of this element's shape.
+    fn zero_dual(&self) -> Self::Dual;
+
+    /// Applies `f` to every number of an element.
+    fn convert<S: Scalar, T: Scalar>(g: &Over<Self, S>, f: impl Fn(S) -> T + Copy)
+    -> Over<Self, T>;
+
+    /// $g\,h$.
+    fn compose(&self, h: &Self) -> Self;
+
+    /// $g^{-1}$.
+    fn inverse(&self) -> Self;
+
+    /// $\exp \xi$.
+    fn exp(xi: &Self::Algebra) -> Self;
+
+    /// The shortest $\xi$ with $\exp \xi = g$.
+    ///
+    /// # Errors
+    /// [`NotUnique`], with one of the answers, where there are several.
+    fn log(&self) -> Result<Self::Algebra, NotUnique<Self::Algebra>>;
+
+    /// $\mathrm{Ad}_g \xi = g\,\xi\,g^{-1}$.
+    fn adjoint(&self, xi: &Self::Algebra) -> Self::Algebra;
+
+    /// $\mathrm{ad}_\xi \eta = [\xi, \eta]$.
+    fn bracket(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra;
+
+    /// The identity, of this element's shape.
+    fn identity_like(&self) -> Self {
+        Self::exp(&self.zero_algebra())
+    }
+
+    /// The pairing $\langle \mu, \xi \rangle$, by coordinates.
+    #[inline(always)]
+    fn pair(mu: &Self::Dual, xi: &Self::Algebra) -> Self::Scalar {
+        (0..mu.dim()).fold(Self::Scalar::zero(), |sum, i| sum + mu.get(i) * xi.get(i))
+    }
+
+    /// $\mathrm{Ad}^*_g \mu$, with $\langle \mathrm{Ad}^*_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}_g \xi\rangle$.
+    fn coadjoint(&self, mu: &Self::Dual) -> Self::Dual {
+        dense::transpose_by_pairing::<Self>(mu, &self.zero_algebra(), |e| self.adjoint(e))
+    }
+
+    /// $\mathrm{ad}^*_\xi \mu$, with $\langle \mathrm{ad}^*_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}_\xi \eta\rangle$.
+    fn coadjoint_bracket(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::bracket(xi, e))
+    }
+
+    /// $\mathrm d\exp_\xi \eta$, left-trivialised.
+    ///
+    /// The default sums $\sum_k \frac{(-1)^k}{(k+1)!} \mathrm{ad}_\xi^k \eta$; it is right to rounding
+    /// for $\lVert \mathrm{ad}_\xi \rVert \le 2\pi$.
+    fn dexp(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+        dense::dexp_series::<Self>(xi, eta)
+    }
+
+    /// $\mathrm d\exp_\xi^{-1} \eta$, left-trivialised; the default solves a linear system of size `dim`.
+    fn dexp_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+        dense::solve::<Self>(eta, |e| Self::dexp(xi, e))
+    }
+
+    /// The Cayley map $\mathrm{cay}(\xi) = (1 - \xi/2)^{-1} (1 + \xi/2)$ of a matrix group whose defining
+    /// form is quadratic; by default the exponential.
+    ///
+    /// It is a rational map that agrees with $\exp$ to second order.
+    #[inline(always)]
+    fn cayley(xi: &Self::Algebra) -> Self {
+        Self::exp(xi)
+    }
+
+    /// The $\xi$ with $\mathrm{cay}(\xi) = g$.
+    ///
+    /// # Errors
+    /// [`OutsideChart`] where there is none.
+    fn cayley_inverse(&self) -> Result<Self::Algebra, OutsideChart> {
+        self.log().map_err(|_| OutsideChart)
+    }
+
+    /// $\mathrm d\mathrm{cay}_\xi \eta$, left-trivialised.
+    fn dcay(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+        Self::dexp(xi, eta)
+    }
+
+    /// $\mathrm d\mathrm{cay}_\xi^{-1} \eta$, left-trivialised.
+    fn dcay_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+        Self::dexp_inv(xi, eta)
+    }
+
+    /// Pulls an element that rounding has moved off the group back to it.
+    #[inline(always)]
+    fn normalize(&mut self) {}
+
+    /// [`compose`](Self::compose) into `out`.
+    #[inline(always)]
+    fn compose_into(&self, h: &Self, out: &mut Self) {
+        *out = self.compose(h);
+    }
+
+    /// [`coadjoint`](Self::coadjoint) into `out`.
+    #[inline(always)]
+    fn coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
+        *out = self.coadjoint(mu);
+    }
+
+    /// [`exp`](Self::exp) into `out`.
+    #[inline(always)]
+    fn exp_into(xi: &Self::Algebra, out: &mut Self) {
+        *out = Self::exp(xi);
+    }
+
+    /// [`cayley`](Self::cayley) into `out`.
+    #[inline(always)]
+    fn cayley_into(xi: &Self::Algebra, out: &mut Self) {
+        *out = Self::cayley(xi);
+    }
+
+    /// [`convert`](Self::convert) into `out`.
+    #[inline(always)]
+    fn convert_into<S: Scalar, T: Scalar>(
+        g: &Over<Self, S>,
+        f: impl Fn(S) -> T + Copy,
+        out: &mut Over<Self, T>,
+    ) {
+        *out = Self::convert(g, f);
+    }
+}
+
+/// A group over `f64`, the base of its family: what an integrator's state is made of.
+pub trait RealGroup: LieGroup<Scalar = f64, WithScalar<f64> = Self> {
+    /// This element over another scalar, a constant under differentiation.
+    ///
+    /// ```
+    /// use lie::{RealGroup, SO3};
+    ///
+    /// let single: SO3<f32> = SO3::identity().lift();
+    /// assert_eq!(single, SO3::identity());
+    /// ```
+    fn lift<S: Scalar>(&self) -> Over<Self, S> {
+        Self::convert(self, S::from_f64)
+    }
+}
+
+impl<G: LieGroup<Scalar = f64, WithScalar<f64> = G>> RealGroup for G {}
+
+/// Sets the coordinates of `zeta` to the dual variables of the directions from `first` on, at zero.
+///
+/// After evaluating a function of, say, $g \exp \zeta$, direction `d` of the result holds the derivative
+/// along the basis vector `first + d`: the left-trivialised derivative.
+#[inline(always)]
+pub fn seed<V: VectorSpace<Scalar: Jet>>(zeta: &mut V, first: usize) {
+    for i in 0..zeta.dim() {
+        let zero = <V::Scalar as Jet>::Value::zero();
+        let x = match i.checked_sub(first) {
+            Some(d) if d < crate::JET_DIRECTIONS => V::Scalar::variable(zero, d),
+            _ => V::Scalar::constant(zero),
+        };
+        zeta.set(i, x);
+    }
+}

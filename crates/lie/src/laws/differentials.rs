@@ -1,0 +1,171 @@
+//! The laws that differentiate, by dual numbers and by central differences.
+
+use super::{Checker, Outcome, log_of, scaled, sum, vector_size};
+use crate::{Cayley, Exp, Jet, LieGroup, Over, Retraction, Scalar, VectorSpace};
+
+pub(super) fn check<G>(checker: &mut Checker, elements: &[G], velocities: &[G::Algebra]) -> Outcome
+where
+    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
+{
+    let shape = &elements[0];
+    for xi in velocities {
+        for eta in velocities {
+            bracket_is_the_derivative_of_adjoint(checker, shape, xi, eta)?;
+            retraction_laws::<G, Exp>(checker, shape, xi, eta, EXP)?;
+            retraction_laws::<G, Cayley>(checker, shape, xi, eta, CAYLEY)?;
+        }
+    }
+    Ok(())
+}
+
+/// The formulas that a retraction's differentials must satisfy, to name them in a failure.
+struct Formulas {
+    left_dual: &'static str,
+    left_difference: &'static str,
+    right_dual: &'static str,
+    left_inverse: &'static str,
+    right_inverse: &'static str,
+}
+
+const EXP: Formulas = Formulas {
+    left_dual: "dexp_xi eta = exp(-xi) d/ds exp(xi + s eta), by duals",
+    left_difference: "dexp_xi eta = exp(-xi) d/ds exp(xi + s eta), by differences",
+    right_dual: "dexp^R_xi eta = d/ds exp(xi + s eta) exp(-xi), by duals",
+    left_inverse: "dexp_xi dexp^-1_xi eta = eta",
+    right_inverse: "dexp^R_xi (dexp^R_xi)^-1 eta = eta",
+};
+
+const CAYLEY: Formulas = Formulas {
+    left_dual: "dcay_xi eta = cay(-xi) d/ds cay(xi + s eta), by duals",
+    left_difference: "dcay_xi eta = cay(-xi) d/ds cay(xi + s eta), by differences",
+    right_dual: "dcay^R_xi eta = d/ds cay(xi + s eta) cay(-xi), by duals",
+    left_inverse: "dcay_xi dcay^-1_xi eta = eta",
+    right_inverse: "dcay^R_xi (dcay^R_xi)^-1 eta = eta",
+};
+
+fn bracket_is_the_derivative_of_adjoint<G>(
+    c: &mut Checker,
+    shape: &G,
+    xi: &G::Algebra,
+    eta: &G::Algebra,
+) -> Outcome
+where
+    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
+{
+    let (case, bracket) = (
+        || format!("xi = {xi:?}, eta = {eta:?}"),
+        G::bracket(xi, eta),
+    );
+    let scale = vector_size(xi) * vector_size(eta);
+    let line = line::<G>(shape, &scaled(xi, 0.0), xi);
+    let moved = Over::<G, JetOf<G>>::exp(&line).adjoint(&constant::<G>(shape, eta));
+    let dual = partial::<G>(xi, &moved);
+    c.vectors(
+        "ad_xi eta = d/ds Ad_exp(s xi) eta, by duals",
+        case,
+        &bracket,
+        &dual,
+        scale,
+    )?;
+    let s = step::<G>();
+    let at = |s: f64| G::exp(&scaled(xi, s)).adjoint(eta);
+    let difference = central(&at(s), &at(-s), s);
+    let tolerance = difference_tolerance::<G>(scale * vector_size(xi).powi(2));
+    c.within(
+        "ad_xi eta = d/ds Ad_exp(s xi) eta, by differences",
+        case,
+        &bracket,
+        &difference,
+        tolerance,
+    )
+}
+
+fn retraction_laws<G, R>(
+    c: &mut Checker,
+    shape: &G,
+    xi: &G::Algebra,
+    eta: &G::Algebra,
+    formulas: Formulas,
+) -> Outcome
+where
+    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
+    R: Retraction,
+{
+    let case = || format!("xi = {xi:?}, eta = {eta:?}");
+    let scale = vector_size(xi).powi(3) * vector_size(eta);
+    let (left, right) = (R::d_left::<G>(xi, eta), R::d_right::<G>(xi, eta));
+
+    let base = lifted::<G>(&R::retract::<G>(xi));
+    let moved: Over<G, JetOf<G>> = R::retract(&line::<G>(shape, xi, eta));
+    let by_dual = partial::<G>(xi, &log_of(&base.inverse().compose(&moved)));
+    c.vectors(formulas.left_dual, case, &left, &by_dual, scale)?;
+    let by_dual = partial::<G>(xi, &log_of(&moved.compose(&base.inverse())));
+    c.vectors(formulas.right_dual, case, &right, &by_dual, scale)?;
+
+    let s = step::<G>() / vector_size(eta);
+    let base = R::retract::<G>(xi).inverse();
+    let at = |s: f64| log_of(&base.compose(&R::retract(&sum(xi, &scaled(eta, s)))));
+    let by_difference = central(&at(s), &at(-s), s);
+    let tolerance = difference_tolerance::<G>(scale * vector_size(eta));
+    c.within(
+        formulas.left_difference,
+        case,
+        &left,
+        &by_difference,
+        tolerance,
+    )?;
+
+    let back = R::d_left::<G>(xi, &R::d_left_inv::<G>(xi, eta));
+    c.vectors(formulas.left_inverse, case, &back, eta, scale)?;
+    let back = R::d_right::<G>(xi, &R::d_right_inv::<G>(xi, eta));
+    c.vectors(formulas.right_inverse, case, &back, eta, scale)
+}
+
+type JetOf<G> = <<G as LieGroup>::Scalar as Scalar>::Jet;
+
+/// $\xi + s\,\eta$ with the dual variable $s$ at zero.
+fn line<G>(shape: &G, xi: &G::Algebra, eta: &G::Algebra) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
+where
+    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
+{
+    let mut line = constant::<G>(shape, xi);
+    let s = JetOf::<G>::variable(G::Scalar::from_f64(0.0), 0);
+    line.add_scaled(s, &constant::<G>(shape, eta));
+    line
+}
+
+fn constant<G>(shape: &G, xi: &G::Algebra) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
+where
+    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
+{
+    let mut out = lifted(shape).zero_algebra();
+    (0..xi.dim()).for_each(|i| out.set(i, Jet::constant(xi.get(i))));
+    out
+}
+
+fn lifted<G>(g: &G) -> Over<G, JetOf<G>>
+where
+    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
+{
+    G::convert::<G::Scalar, JetOf<G>>(g, Jet::constant)
+}
+
+/// The derivative along $s$.
+fn partial<G: LieGroup>(shape: &G::Algebra, x: &impl VectorSpace<Scalar = JetOf<G>>) -> G::Algebra {
+    let mut out = shape.clone();
+    (0..x.dim()).for_each(|i| out.set(i, x.get(i).partial(0)));
+    out
+}
+
+/// The step that balances truncation and rounding of central differences.
+fn step<G: LieGroup>() -> f64 {
+    G::Scalar::EPSILON.cbrt()
+}
+
+fn difference_tolerance<G: LieGroup>(scale: f64) -> f64 {
+    super::ROUNDINGS * G::Scalar::EPSILON.powf(2.0 / 3.0) * scale
+}
+
+fn central<V: VectorSpace>(plus: &V, minus: &V, s: f64) -> V {
+    scaled(&sum(plus, &scaled(minus, -1.0)), 0.5 / s)
+}

@@ -1,0 +1,107 @@
+//! Maps from the algebra to the group: the exponential and the Cayley map.
+
+use core::fmt::Debug;
+
+use crate::{LieGroup, OutsideChart, VectorSpace};
+
+/// A retraction $\tau: \mathfrak g \to G$: $\tau(0) = e$, $\mathrm d\tau_0 = 1$, $\tau(-\xi) = \tau(\xi)^{-1}$.
+///
+/// [`Exp`] and [`Cayley`] are the two; integrators take either as a type parameter.
+///
+/// ```
+/// use lie::{Cayley, Exp, Retraction, SO3, Tangent};
+///
+/// let xi = Tangent([1e-3, 2e-3, -1e-3]);
+/// let (a, b): (SO3, SO3) = (Exp::retract(&xi), Cayley::retract(&xi));
+/// assert!((*a.matrix() - *b.matrix()).frobenius() < 1e-8);
+/// ```
+pub trait Retraction: Copy + Debug + Default + 'static {
+    /// The name to print.
+    const NAME: &'static str;
+
+    /// $\tau(\xi)$.
+    fn retract<G: LieGroup>(xi: &G::Algebra) -> G;
+
+    /// $\tau(\xi)$ into `out`.
+    fn retract_into<G: LieGroup>(xi: &G::Algebra, out: &mut G);
+
+    /// $\tau^{-1}(g)$.
+    ///
+    /// # Errors
+    /// [`OutsideChart`] where the inverse does not exist or is not unique.
+    fn inverse<G: LieGroup>(g: &G) -> Result<G::Algebra, OutsideChart>;
+
+    /// The left-trivialised differential: $\tau(\xi)^{-1}\, \frac{d}{ds}\big|_0 \tau(\xi + s \eta)$.
+    fn d_left<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra;
+
+    /// The inverse of [`d_left`](Self::d_left) in `eta`.
+    fn d_left_inv<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra;
+
+    /// The right-trivialised differential: $\frac{d}{ds}\big|_0 \tau(\xi + s \eta)\; \tau(\xi)^{-1}$, which is
+    /// the left-trivialised one at $-\xi$.
+    fn d_right<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
+        Self::d_left::<G>(&negated(xi), eta)
+    }
+
+    /// The inverse of [`d_right`](Self::d_right) in `eta`.
+    fn d_right_inv<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
+        Self::d_left_inv::<G>(&negated(xi), eta)
+    }
+}
+
+fn negated<V: VectorSpace>(xi: &V) -> V {
+    let mut minus = xi.clone();
+    for i in 0..xi.dim() {
+        minus.set(i, -xi.get(i));
+    }
+    minus
+}
+
+/// The exponential map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Exp;
+
+/// The Cayley map: no trigonometry, no branch; the exponential on groups that have none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cayley;
+
+macro_rules! retraction {
+    ($name:ident, $label:literal, $map:ident, $into:ident, $d:ident, $d_inv:ident, $inverse:expr) => {
+        impl Retraction for $name {
+            const NAME: &'static str = $label;
+            #[inline(always)]
+            fn retract<G: LieGroup>(xi: &G::Algebra) -> G {
+                G::$map(xi)
+            }
+            #[inline(always)]
+            fn retract_into<G: LieGroup>(xi: &G::Algebra, out: &mut G) {
+                G::$into(xi, out);
+            }
+            #[inline(always)]
+            fn inverse<G: LieGroup>(g: &G) -> Result<G::Algebra, OutsideChart> {
+                $inverse(g)
+            }
+            #[inline(always)]
+            fn d_left<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
+                G::$d(xi, eta)
+            }
+            #[inline(always)]
+            fn d_left_inv<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
+                G::$d_inv(xi, eta)
+            }
+        }
+    };
+}
+
+retraction!(Exp, "exp", exp, exp_into, dexp, dexp_inv, |g: &G| g
+    .log()
+    .map_err(|_| OutsideChart));
+retraction!(
+    Cayley,
+    "cayley",
+    cayley,
+    cayley_into,
+    dcay,
+    dcay_inv,
+    G::cayley_inverse
+);

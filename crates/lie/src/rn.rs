@@ -1,0 +1,119 @@
+//! $\mathbb{R}^n$ under addition.
+
+use crate::{Cotangent, LieGroup, NotUnique, Over, Scalar, Tangent, Vec3};
+
+/// A vector of $\mathbb{R}^n$, the group operation being addition.
+///
+/// The group is abelian: $\mathrm{Ad}$ and $\mathrm{Ad}^*$ are the identity, $\mathrm{ad}$ and $\mathrm{ad}^*$ are zero.
+///
+/// ```
+/// use lie::{LieGroup, Rn};
+///
+/// assert_eq!(Rn([1.0, 2.0]).compose(&Rn([3.0, 4.0])), Rn([4.0, 6.0]));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rn<const N: usize, S = f64>(pub [S; N]);
+
+/// Space, $\mathbb{R}^3$.
+pub type R3<S = f64> = Rn<3, S>;
+
+impl<const N: usize, S: Scalar> Rn<N, S> {
+    /// The identity: zero.
+    #[inline(always)]
+    pub fn identity() -> Self {
+        Self([S::zero(); N])
+    }
+}
+
+impl<const N: usize, S: Scalar> Default for Rn<N, S> {
+    fn default() -> Self {
+        Self::identity()
+    }
+}
+
+impl<S: Scalar> R3<S> {
+    /// The coordinates as a vector.
+    #[inline(always)]
+    pub fn vec3(&self) -> Vec3<S> {
+        Vec3(self.0)
+    }
+}
+
+impl<S> From<Vec3<S>> for R3<S> {
+    #[inline(always)]
+    fn from(x: Vec3<S>) -> Self {
+        Rn(x.0)
+    }
+}
+
+impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
+    type Scalar = S;
+    type Algebra = Tangent<N, S>;
+    type Dual = Cotangent<N, S>;
+    type WithScalar<T: Scalar> = Rn<N, T>;
+
+    #[inline(always)]
+    fn zero_algebra(&self) -> Tangent<N, S> {
+        Tangent::zero()
+    }
+
+    #[inline(always)]
+    fn zero_dual(&self) -> Cotangent<N, S> {
+        Cotangent::zero()
+    }
+
+    #[inline(always)]
+    fn convert<A: Scalar, B: Scalar>(g: &Rn<N, A>, f: impl Fn(A) -> B + Copy) -> Over<Self, B> {
+        Rn(g.0.map(f))
+    }
+
+    #[inline(always)]
+    fn compose(&self, h: &Self) -> Self {
+        Self(core::array::from_fn(|i| self.0[i] + h.0[i]))
+    }
+
+    #[inline(always)]
+    fn inverse(&self) -> Self {
+        Self(self.0.map(|x| -x))
+    }
+
+    #[inline(always)]
+    fn exp(xi: &Tangent<N, S>) -> Self {
+        Self(xi.0)
+    }
+
+    #[inline(always)]
+    fn log(&self) -> Result<Tangent<N, S>, NotUnique<Tangent<N, S>>> {
+        Ok(Tangent(self.0))
+    }
+
+    #[inline(always)]
+    fn adjoint(&self, xi: &Tangent<N, S>) -> Tangent<N, S> {
+        *xi
+    }
+
+    #[inline(always)]
+    fn bracket(_: &Tangent<N, S>, _: &Tangent<N, S>) -> Tangent<N, S> {
+        Tangent::zero()
+    }
+
+    #[inline(always)]
+    fn coadjoint(&self, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
+        *mu
+    }
+
+    #[inline(always)]
+    fn coadjoint_bracket(_: &Tangent<N, S>, _: &Cotangent<N, S>) -> Cotangent<N, S> {
+        Cotangent::zero()
+    }
+
+    #[inline(always)]
+    fn dexp(_: &Tangent<N, S>, eta: &Tangent<N, S>) -> Tangent<N, S> {
+        *eta
+    }
+
+    #[inline(always)]
+    fn dexp_inv(_: &Tangent<N, S>, eta: &Tangent<N, S>) -> Tangent<N, S> {
+        *eta
+    }
+}

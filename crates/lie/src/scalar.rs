@@ -1,0 +1,193 @@
+//! The numbers that every formula here is written over.
+
+use core::fmt::Debug;
+use core::ops::Neg;
+
+use num_dual::{Dual, DualNum, DualSVec};
+use num_traits::{NumAssignOps, NumOps, One, Zero};
+
+/// Directions that one [`Scalar::Jet`] carries.
+///
+/// The dimension of a product of groups cannot size an array on stable Rust, so derivatives are
+/// taken in chunks of this many directions.
+pub const JET_DIRECTIONS: usize = 6;
+
+/// A number that the formulas of this crate run over: `f64`, `f32`, dual numbers, SIMD lanes.
+///
+/// Group code takes no data-dependent branch: where two expressions are needed, both are evaluated
+/// and [`select`](Scalar::select) picks one, so that dual numbers keep their derivative and lanes
+/// stay side by side.
+///
+/// ```
+/// use lie::Scalar;
+///
+/// fn hypotenuse<S: Scalar>(a: S, b: S) -> S {
+///     (a * a + b * b).sqrt()
+/// }
+/// assert_eq!(hypotenuse(3.0_f64, 4.0), 5.0);
+/// assert_eq!(hypotenuse(3.0_f32, 4.0), 5.0);
+/// ```
+pub trait Scalar:
+    Copy + Debug + PartialEq + Zero + One + NumOps + NumAssignOps + Neg<Output = Self> + 'static
+{
+    /// The outcome of a comparison: `bool`, or one bit a lane.
+    type Mask: Copy;
+
+    /// Dual numbers over this scalar with [`JET_DIRECTIONS`] directions.
+    type Jet: Jet<Value = Self>;
+
+    /// The distance from 1 to the next larger number of the underlying float.
+    const EPSILON: f64;
+
+    /// The nearest number to `x`, a constant under differentiation.
+    fn from_f64(x: f64) -> Self;
+
+    /// The square root.
+    fn sqrt(self) -> Self;
+
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// The angle of the point `(x, self)` in the plane, in $(-\pi, \pi]$.
+    fn atan2(self, x: Self) -> Self;
+
+    /// Whether `self < rhs`, by the real parts.
+    fn less(self, rhs: Self) -> Self::Mask;
+
+    /// `yes` where the mask holds, `no` elsewhere.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// The largest absolute value of the real parts; for pivots, tolerances and tests, not for formulas.
+    fn magnitude(self) -> f64;
+}
+
+/// A dual number: a value with its derivatives along [`JET_DIRECTIONS`] directions.
+///
+/// ```
+/// use lie::{Jet, Scalar};
+///
+/// let x = <f64 as Scalar>::Jet::variable(3.0, 0);
+/// let y = x * x;
+/// assert_eq!((y.value(), y.partial(0), y.partial(1)), (9.0, 6.0, 0.0));
+/// ```
+pub trait Jet: Scalar {
+    /// What is differentiated.
+    type Value: Scalar;
+
+    /// A number with no derivative.
+    fn constant(value: Self::Value) -> Self;
+
+    /// The variable of direction `direction`, which must be below [`JET_DIRECTIONS`].
+    fn variable(value: Self::Value, direction: usize) -> Self;
+
+    /// The value.
+    fn value(self) -> Self::Value;
+
+    /// The derivative along `direction`.
+    fn partial(self, direction: usize) -> Self::Value;
+}
+
+macro_rules! float {
+    ($float:ident) => {
+        impl Scalar for $float {
+            type Mask = bool;
+            type Jet = DualSVec<$float, JET_DIRECTIONS>;
+            const EPSILON: f64 = $float::EPSILON as f64;
+
+            #[inline(always)]
+            fn from_f64(x: f64) -> Self {
+                x as $float
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $float::sqrt(self)
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $float::sin_cos(self)
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                $float::atan2(self, x)
+            }
+            #[inline(always)]
+            fn less(self, rhs: Self) -> bool {
+                self < rhs
+            }
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
+            fn magnitude(self) -> f64 {
+                self.abs() as f64
+            }
+        }
+    };
+}
+
+float!(f64);
+float!(f32);
+
+macro_rules! dual {
+    ([$($generics:tt)*], $dual:ty) => {
+        impl<T: Scalar + DualNum, $($generics)*> Scalar for $dual {
+            type Mask = bool;
+            type Jet = DualSVec<Self, JET_DIRECTIONS>;
+            const EPSILON: f64 = T::EPSILON;
+
+            #[inline(always)]
+            fn from_f64(x: f64) -> Self {
+                Self::from_re(<T as Scalar>::from_f64(x))
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                DualNum::sqrt(&self)
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                DualNum::sin_cos(&self)
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                DualNum::atan2(&self, x)
+            }
+            #[inline(always)]
+            fn less(self, rhs: Self) -> bool {
+                self.re < rhs.re
+            }
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
+            fn magnitude(self) -> f64 {
+                self.re.magnitude()
+            }
+        }
+    };
+}
+
+dual!([const N: usize], DualSVec<T, N>);
+dual!([], Dual<T>);
+
+impl<T: Scalar + DualNum> Jet for DualSVec<T, JET_DIRECTIONS> {
+    type Value = T;
+
+    #[inline(always)]
+    fn constant(value: T) -> Self {
+        Self::from_re(value)
+    }
+    #[inline(always)]
+    fn variable(value: T, direction: usize) -> Self {
+        Self::from_re(value).derivative(direction)
+    }
+    #[inline(always)]
+    fn value(self) -> T {
+        self.re
+    }
+    #[inline(always)]
+    fn partial(self, direction: usize) -> T {
+        self.eps.0.map_or(T::zero(), |eps| eps[direction])
+    }
+}

@@ -1,0 +1,313 @@
+//! SO(3): rotations of space.
+
+use crate::stumpff::{stumpff, stumpff2};
+use crate::{
+    Cotangent, LieGroup, Mat3, NotARotation, NotUnique, OutsideChart, Over, Scalar, Tangent, Vec3,
+};
+
+/// The largest $\lVert I - R^T R \rVert$ that [`SO3::from_matrix`] accepts.
+const ORTHOGONALITY_TOLERANCE: f64 = 1e-6;
+
+/// A rotation, held as its matrix $R$.
+///
+/// Algebra and dual are $\mathbb{R}^3$ by the hat map: $\mathrm{Ad}_R \Omega = R\,\Omega$,
+/// $\mathrm{ad}_\Omega \eta = \Omega \times \eta$, $\mathrm{Ad}^*_R \mu = R^T \mu$, $\mathrm{ad}^*_\Omega \mu = \mu \times \Omega$.
+///
+/// ```
+/// use lie::{LieGroup, SO3, Tangent, Vec3};
+///
+/// let quarter = SO3::exp(&Tangent([0.0, 0.0, core::f64::consts::FRAC_PI_2]));
+/// let turned = quarter.rotate(Vec3([1.0, 0.0, 0.0]));
+/// assert!((turned - Vec3([0.0, 1.0, 0.0])).norm() < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SO3<S = f64> {
+    matrix: Mat3<S>,
+}
+
+impl<S: Scalar> Default for SO3<S> {
+    fn default() -> Self {
+        Self::identity()
+    }
+}
+
+impl<S> SO3<S> {
+    /// The matrix $R$.
+    #[inline(always)]
+    pub fn matrix(&self) -> &Mat3<S> {
+        &self.matrix
+    }
+}
+
+impl<S: Scalar> SO3<S> {
+    /// The identity.
+    #[inline(always)]
+    pub fn identity() -> Self {
+        Self::from_matrix_unchecked(Mat3::identity())
+    }
+
+    /// The rotation with this matrix.
+    ///
+    /// # Errors
+    /// [`NotARotation`] where $\lVert I - R^T R\rVert$ exceeds 1e-6, the determinant is negative or a number is not finite.
+    pub fn from_matrix(matrix: Mat3<S>) -> Result<Self, NotARotation> {
+        let rotation = Self::from_matrix_unchecked(matrix);
+        let (defect, tolerance) = (rotation.orthogonality_error(), ORTHOGONALITY_TOLERANCE);
+        let determinant = matrix.determinant();
+        // By the sum with one: the magnitude of a scalar has no sign.
+        let positive = (determinant + S::one()).magnitude() > 1.0;
+        let rotates = defect <= tolerance && positive;
+        rotates.then_some(rotation).ok_or(NotARotation {
+            defect,
+            determinant: (determinant + S::one()).magnitude() - 1.0,
+            tolerance,
+        })
+    }
+
+    /// The rotation with this matrix, taken on trust.
+    #[inline(always)]
+    pub fn from_matrix_unchecked(matrix: Mat3<S>) -> Self {
+        Self { matrix }
+    }
+
+    /// The rotation of the quaternion $(w, x, y, z)$, which is brought to unit length.
+    ///
+    /// A zero quaternion gives a matrix that is not finite.
+    #[inline(always)]
+    pub fn from_quaternion([w, x, y, z]: [S; 4]) -> Self {
+        let v = Vec3([x, y, z]);
+        let two = S::from_f64(2.0) / (w * w + v.norm_squared());
+        let vv = (v * two).outer(v);
+        let diagonal = S::one() - two * v.norm_squared();
+        Self::from_matrix_unchecked(vv + (v * (two * w)).hat() + Mat3::diagonal([diagonal; 3]))
+    }
+
+    /// A unit quaternion $(w, x, y, z)$ of this rotation, its largest entry positive (Shepperd's method).
+    ///
+    /// ```
+    /// use lie::SO3;
+    ///
+    /// let half_turn = SO3::from_quaternion([0.0, 0.0, 1.0, 0.0]);
+    /// assert_eq!(half_turn.to_quaternion(), [0.0, 0.0, 1.0, 0.0]);
+    /// ```
+    #[inline(always)]
+    pub fn to_quaternion(&self) -> [S; 4] {
+        let m = self.matrix.0;
+        let one = S::one();
+        let [a, b, c] = self.matrix.skew_vee().0;
+        let (p, q, r) = (m[0][1] + m[1][0], m[0][2] + m[2][0], m[1][2] + m[2][1]);
+        // Four times q q^T, a row for each entry of q: the row of the largest entry is well conditioned.
+        let rows = [
+            [one + m[0][0] + m[1][1] + m[2][2], a, b, c],
+            [a, one + m[0][0] - m[1][1] - m[2][2], p, q],
+            [b, p, one - m[0][0] + m[1][1] - m[2][2], r],
+            [c, q, r, one - m[0][0] - m[1][1] + m[2][2]],
+        ];
+        let (mut best, mut size) = (rows[0], rows[0][0]);
+        for (i, row) in rows.iter().enumerate().skip(1) {
+            let larger = size.less(row[i]);
+            best = core::array::from_fn(|j| S::select(larger, row[j], best[j]));
+            size = S::select(larger, row[i], size);
+        }
+        let scale = S::from_f64(0.5) / size.sqrt();
+        best.map(|x| x * scale)
+    }
+
+    /// $R\,x$.
+    #[inline(always)]
+    pub fn rotate(&self, x: Vec3<S>) -> Vec3<S> {
+        self.matrix * x
+    }
+
+    /// $R^T x$.
+    #[inline(always)]
+    pub fn inverse_rotate(&self, x: Vec3<S>) -> Vec3<S> {
+        self.matrix.transpose_mul(x)
+    }
+
+    /// $R - I$, with small relative error also where $R$ is close to the identity.
+    ///
+    /// From the skew part $\hat s = \frac12 (R - R^T)$ as $\hat s + \hat s^2 / (1 + \cos\theta)$: entry by entry,
+    /// $R - I$ would lose the digits that a step of size $h$ divides by $h$.
+    #[inline(always)]
+    pub fn minus_identity(&self) -> Mat3<S> {
+        let s = self.matrix.vee();
+        let trace = self.matrix.trace();
+        let acute = S::zero().less(trace);
+        let scale = S::from_f64(2.0) / (S::one() + S::select(acute, trace, S::one()));
+        let symmetric = s.outer(s) - Mat3::diagonal([s.norm_squared(); 3]);
+        let (near, far) = (s.hat() + symmetric * scale, self.matrix - Mat3::identity());
+        Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| S::select(acute, near[(i, j)], far[(i, j)]))))
+    }
+
+    /// $\lVert I - R^T R \rVert_F$.
+    pub fn orthogonality_error(&self) -> f64 {
+        (Mat3::identity() - self.matrix.transpose() * self.matrix).frobenius()
+    }
+
+    /// $1 / (1 + |\xi|^2/4)$, the Cayley map's factor.
+    #[inline(always)]
+    fn cayley_scale(xi: Vec3<S>) -> S {
+        S::one() / (S::one() + xi.norm_squared() * S::from_f64(0.25))
+    }
+}
+
+impl<S: Scalar> LieGroup for SO3<S> {
+    type Scalar = S;
+    type Algebra = Tangent<3, S>;
+    type Dual = Cotangent<3, S>;
+    type WithScalar<T: Scalar> = SO3<T>;
+
+    #[inline(always)]
+    fn zero_algebra(&self) -> Tangent<3, S> {
+        Tangent::zero()
+    }
+
+    #[inline(always)]
+    fn zero_dual(&self) -> Cotangent<3, S> {
+        Cotangent::zero()
+    }
+
+    #[inline(always)]
+    fn convert<A: Scalar, B: Scalar>(g: &SO3<A>, f: impl Fn(A) -> B + Copy) -> Over<Self, B> {
+        SO3::from_matrix_unchecked(Mat3(g.matrix.0.map(|row| row.map(f))))
+    }
+
+    #[inline(always)]
+    fn compose(&self, h: &Self) -> Self {
+        Self::from_matrix_unchecked(self.matrix * h.matrix)
+    }
+
+    #[inline(always)]
+    fn inverse(&self) -> Self {
+        Self::from_matrix_unchecked(self.matrix.transpose())
+    }
+
+    /// Rodrigues' formula $I + c_1 \hat\xi + c_2 \hat\xi^2$ with the Stumpff functions of $|\xi|^2$.
+    #[inline(always)]
+    fn exp(xi: &Tangent<3, S>) -> Self {
+        let w = xi.vec3();
+        let x = w.norm_squared();
+        let [c1, c2] = stumpff2(x);
+        let symmetric = (w * c2).outer(w) + Mat3::diagonal([S::one() - c2 * x; 3]);
+        Self::from_matrix_unchecked((w * c1).hat() + symmetric)
+    }
+
+    #[inline(always)]
+    fn log(&self) -> Result<Tangent<3, S>, NotUnique<Tangent<3, S>>> {
+        let [w, x, y, z] = self.to_quaternion();
+        let v = Vec3([x, y, z]);
+        let negative = w.less(S::zero());
+        let scale = angle_over_sine(v.norm_squared(), S::select(negative, -w, w));
+        let xi = Tangent::from(v * S::select(negative, -scale, scale));
+        // The quaternion's rounding leaves a half turn this far from w = 0.
+        if w.magnitude() <= 2.0 * S::EPSILON {
+            return Err(NotUnique { representative: xi });
+        }
+        Ok(xi)
+    }
+
+    #[inline(always)]
+    fn adjoint(&self, xi: &Tangent<3, S>) -> Tangent<3, S> {
+        self.rotate(xi.vec3()).into()
+    }
+
+    #[inline(always)]
+    fn bracket(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+        xi.vec3().cross(eta.vec3()).into()
+    }
+
+    #[inline(always)]
+    fn identity_like(&self) -> Self {
+        Self::identity()
+    }
+
+    #[inline(always)]
+    fn coadjoint(&self, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        self.inverse_rotate(mu.vec3()).into()
+    }
+
+    #[inline(always)]
+    fn coadjoint_bracket(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        mu.vec3().cross(xi.vec3()).into()
+    }
+
+    /// $1 - c_2 \hat\xi + c_3 \hat\xi^2$.
+    #[inline(always)]
+    fn dexp(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+        let (w, eta) = (xi.vec3(), eta.vec3());
+        let [_, c2, c3, ..] = stumpff(w.norm_squared());
+        let once = w.cross(eta);
+        (eta - once * c2 + w.cross(once) * c3).into()
+    }
+
+    /// $1 + \frac12 \hat\xi + \frac{1 - \frac\theta2 \cot\frac\theta2}{\theta^2} \hat\xi^2$, the last factor as $(c_3 - 2 c_4)/(2 c_2)$.
+    #[inline(always)]
+    fn dexp_inv(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+        let (w, eta) = (xi.vec3(), eta.vec3());
+        let [_, c2, c3, c4, ..] = stumpff(w.norm_squared());
+        let once = w.cross(eta);
+        let factor = (c3 - c4 - c4) / (c2 + c2);
+        (eta + once * S::from_f64(0.5) + w.cross(once) * factor).into()
+    }
+
+    /// $I + \frac{1}{1 + |\xi|^2/4} \left(\hat\xi + \frac12 \hat\xi^2\right)$: the rotation by $2 \arctan(|\xi|/2)$.
+    #[inline(always)]
+    fn cayley(xi: &Tangent<3, S>) -> Self {
+        let w = xi.vec3();
+        let scale = Self::cayley_scale(w);
+        let half = S::from_f64(0.5) * scale;
+        let diagonal = S::one() - half * w.norm_squared();
+        let symmetric = (w * half).outer(w) + Mat3::diagonal([diagonal; 3]);
+        Self::from_matrix_unchecked((w * scale).hat() + symmetric)
+    }
+
+    #[inline(always)]
+    fn cayley_inverse(&self) -> Result<Tangent<3, S>, OutsideChart> {
+        let denominator = S::one() + self.matrix.trace();
+        // 1 + tr R = 4 cos^2(theta/2), whose rounding error is a few epsilon.
+        if denominator.magnitude() <= 8.0 * S::EPSILON {
+            return Err(OutsideChart);
+        }
+        Ok((self.matrix.skew_vee() * (S::from_f64(2.0) / denominator)).into())
+    }
+
+    /// $\frac{1}{1 + |\xi|^2/4} \left(1 - \frac12 \hat\xi\right)$.
+    #[inline(always)]
+    fn dcay(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+        let (w, eta) = (xi.vec3(), eta.vec3());
+        ((eta - w.cross(eta) * S::from_f64(0.5)) * Self::cayley_scale(w)).into()
+    }
+
+    /// $1 + \frac12 \hat\xi + \frac14 \xi \xi^T$.
+    #[inline(always)]
+    fn dcay_inv(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+        let (w, eta) = (xi.vec3(), eta.vec3());
+        let (half, quarter) = (S::from_f64(0.5), S::from_f64(0.25));
+        (eta + w.cross(eta) * half + w * (w.dot(eta) * quarter)).into()
+    }
+
+    /// One Newton step of the polar decomposition, $R \leftarrow \frac12 R\,(3 I - R^T R)$.
+    #[inline(always)]
+    fn normalize(&mut self) {
+        let r = self.matrix;
+        let defect = Mat3::identity() - r.transpose() * r;
+        self.matrix += r * defect * S::from_f64(0.5);
+    }
+}
+
+/// $2 \operatorname{atan2}(\sqrt n, w) / \sqrt n$ for $n = \sin^2\frac\theta2$, $w = \cos\frac\theta2 \ge 0$; even in $\sqrt n$, so smooth at zero.
+#[inline(always)]
+fn angle_over_sine<S: Scalar>(n: S, w: S) -> S {
+    /// Terms of the arc tangent's series: $0.02^9 / 19 < 10^{-16}$.
+    const TERMS: u32 = 9;
+    let small = n.less(S::from_f64(0.02) * w * w);
+    let t = n / S::select(small, w * w, S::one());
+    let coefficient = |k: u32| S::from_f64(1.0 / f64::from(2 * k + 1));
+    let series = (0..TERMS)
+        .rev()
+        .fold(S::zero(), |sum, k| coefficient(k) - t * sum);
+    let root = S::select(small, S::one(), n).sqrt();
+    let (near, far) = (series / w, root.atan2(w) / root);
+    S::select(small, near, far) * S::from_f64(2.0)
+}

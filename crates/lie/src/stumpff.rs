@@ -1,0 +1,101 @@
+//! The Stumpff functions, from which the exponential maps are built.
+
+use crate::Scalar;
+
+/// Below this $x$ the series is used; above, the recursion from trigonometric functions.
+const SERIES_BELOW: f64 = 1.0;
+/// Terms of the series; the first one left out is below $10^{-20}$ of the value.
+const TERMS: u32 = 9;
+
+/// $c_1, \dots, c_6$ at $x = \theta^2 \ge 0$, $c_k(x) = \sum_i \frac{(-x)^i}{(k + 2i)!}$.
+///
+/// $c_1 = \sin\theta/\theta$, $c_2 = (1 - \cos\theta)/\theta^2$ and $c_k = 1/k! - x\,c_{k+2}$. They are entire,
+/// so their derivatives exist at zero; the textbook quotients lose all digits there.
+#[inline(always)]
+pub(crate) fn stumpff<S: Scalar>(x: S) -> [S; 6] {
+    let small = x.less(S::from_f64(SERIES_BELOW));
+    let (near, far) = (series(x), recursion(S::select(small, S::one(), x)));
+    core::array::from_fn(|k| S::select(small, near[k], far[k]))
+}
+
+/// The first two alone.
+#[inline(always)]
+pub(crate) fn stumpff2<S: Scalar>(x: S) -> [S; 2] {
+    let small = x.less(S::from_f64(SERIES_BELOW));
+    let (c3, c4) = (sum(x, 3), sum(x, 4));
+    let far = trigonometric(S::select(small, S::one(), x));
+    let near = [S::one() - x * c3, S::from_f64(0.5) - x * c4];
+    core::array::from_fn(|k| S::select(small, near[k], far[k]))
+}
+
+#[inline(always)]
+fn series<S: Scalar>(x: S) -> [S; 6] {
+    let (c5, c6) = (sum(x, 5), sum(x, 6));
+    let (c3, c4) = (
+        S::from_f64(1.0 / 6.0) - x * c5,
+        S::from_f64(1.0 / 24.0) - x * c6,
+    );
+    let (c1, c2) = (S::one() - x * c3, S::from_f64(0.5) - x * c4);
+    [c1, c2, c3, c4, c5, c6]
+}
+
+/// $c_k(x)$ by Horner's rule on $\frac{1}{k!} \left(1 - \frac{x}{(k+1)(k+2)} \left(1 - \cdots \right)\right)$.
+#[inline(always)]
+fn sum<S: Scalar>(x: S, k: u32) -> S {
+    let factor = |i: u32| 1.0 / (f64::from(k + 2 * i - 1) * f64::from(k + 2 * i));
+    let tail = (1..=TERMS).rev().fold(S::one(), |tail, i| {
+        S::one() - x * tail * S::from_f64(factor(i))
+    });
+    tail * S::from_f64(1.0 / (1..=k).map(f64::from).product::<f64>())
+}
+
+#[inline(always)]
+fn recursion<S: Scalar>(x: S) -> [S; 6] {
+    let [c1, c2] = trigonometric(x);
+    let r = S::one() / x;
+    let (c3, c4) = ((S::one() - c1) * r, (S::from_f64(0.5) - c2) * r);
+    let (c5, c6) = (
+        (S::from_f64(1.0 / 6.0) - c3) * r,
+        (S::from_f64(1.0 / 24.0) - c4) * r,
+    );
+    [c1, c2, c3, c4, c5, c6]
+}
+
+/// $\sin\theta/\theta$ and $(1 - \cos\theta)/\theta^2$ by the half angle, which does not cancel.
+#[inline(always)]
+fn trigonometric<S: Scalar>(x: S) -> [S; 2] {
+    let half = x.sqrt() * S::from_f64(0.5);
+    let (sin, cos) = half.sin_cos();
+    let sinc = sin / half;
+    [sinc * cos, sinc * sinc * S::from_f64(0.5)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agrees_with_the_definition_on_both_sides_of_the_seam() {
+        for theta in [
+            0.0_f64, 1e-8, 1e-4, 0.3, 0.999_999, 1.0, 1.000_001, 2.0, 3.0, 6.0,
+        ] {
+            let x = theta * theta;
+            let series = |k: u32| {
+                let mut term = 1.0 / (1..=k).map(f64::from).product::<f64>();
+                let mut total = 0.0;
+                for i in 1..60 {
+                    total += term;
+                    term *= -x / (f64::from(k + 2 * i - 1) * f64::from(k + 2 * i));
+                }
+                total
+            };
+            let c = stumpff(x);
+            for k in 1..=6 {
+                // The recursion divides rounding by x; the reference series cancels at large angles.
+                let bound = 4e-15 * series(k).abs().max(1.0);
+                assert!((c[k as usize - 1] - series(k)).abs() < bound, "c_{k}({x})");
+            }
+            assert_eq!(stumpff2(x)[0], c[0]);
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Small vectors of three.
+
+use core::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub, SubAssign};
+
+use crate::{Mat3, Scalar};
+
+/// A vector of three numbers, $x \in \mathbb{R}^3$.
+///
+/// ```
+/// use lie::Vec3;
+///
+/// let x = Vec3([1.0, 0.0, 0.0]);
+/// let y = Vec3([0.0, 1.0, 0.0]);
+/// assert_eq!(x.cross(y), Vec3([0.0, 0.0, 1.0]));
+/// assert_eq!(x.hat() * y, x.cross(y));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vec3<S = f64>(pub [S; 3]);
+
+impl<S: Scalar> Vec3<S> {
+    /// The zero vector.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self([S::zero(); 3])
+    }
+
+    /// $x \cdot y$.
+    #[inline(always)]
+    pub fn dot(self, y: Self) -> S {
+        self[0] * y[0] + self[1] * y[1] + self[2] * y[2]
+    }
+
+    /// $x \times y$.
+    #[inline(always)]
+    pub fn cross(self, y: Self) -> Self {
+        Self([
+            self[1] * y[2] - self[2] * y[1],
+            self[2] * y[0] - self[0] * y[2],
+            self[0] * y[1] - self[1] * y[0],
+        ])
+    }
+
+    /// The hat map $\hat{\cdot}: \mathbb{R}^3 \to \mathfrak{so}(3)$, $\hat x y = x \times y$.
+    #[inline(always)]
+    pub fn hat(self) -> Mat3<S> {
+        let ([x, y, z], o) = (self.0, S::zero());
+        Mat3([[o, -z, y], [z, o, -x], [-y, x, o]])
+    }
+
+    /// $x\, y^T$.
+    #[inline(always)]
+    pub fn outer(self, y: Self) -> Mat3<S> {
+        Mat3(self.0.map(|x| (y * x).0))
+    }
+
+    /// $|x|^2$.
+    #[inline(always)]
+    pub fn norm_squared(self) -> S {
+        self.dot(self)
+    }
+
+    /// $|x|$; not differentiable at zero.
+    #[inline(always)]
+    pub fn norm(self) -> S {
+        self.norm_squared().sqrt()
+    }
+}
+
+impl Vec3<f64> {
+    /// The same vector over another scalar, as a constant.
+    #[inline(always)]
+    pub fn lift<S: Scalar>(self) -> Vec3<S> {
+        Vec3(self.0.map(S::from_f64))
+    }
+}
+
+impl<S> Index<usize> for Vec3<S> {
+    type Output = S;
+    #[inline(always)]
+    fn index(&self, i: usize) -> &S {
+        &self.0[i]
+    }
+}
+
+impl<S> IndexMut<usize> for Vec3<S> {
+    #[inline(always)]
+    fn index_mut(&mut self, i: usize) -> &mut S {
+        &mut self.0[i]
+    }
+}
+
+impl<S: Scalar> Add for Vec3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, y: Self) -> Self {
+        Self([self[0] + y[0], self[1] + y[1], self[2] + y[2]])
+    }
+}
+
+impl<S: Scalar> Sub for Vec3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, y: Self) -> Self {
+        Self([self[0] - y[0], self[1] - y[1], self[2] - y[2]])
+    }
+}
+
+impl<S: Scalar> Neg for Vec3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(|x| -x))
+    }
+}
+
+impl<S: Scalar> Mul<S> for Vec3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, a: S) -> Self {
+        Self(self.0.map(|x| x * a))
+    }
+}
+
+impl<S: Scalar> AddAssign for Vec3<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, y: Self) {
+        *self = *self + y;
+    }
+}
+
+impl<S: Scalar> SubAssign for Vec3<S> {
+    #[inline(always)]
+    fn sub_assign(&mut self, y: Self) {
+        *self = *self - y;
+    }
+}
