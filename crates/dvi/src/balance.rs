@@ -1,0 +1,54 @@
+//! The momentum balance that a step solves.
+
+use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
+
+use crate::{Derivatives, DiscreteLagrangian};
+
+/// The discrete Euler–Lagrange equations (25) at one step, in momentum form and in the frame of the step's end.
+///
+/// With $f = \tau(c)$, the residual is
+/// $\mathsf T_e^* \mathsf L_f \cdot \mathbf D_f L_d - \mathrm{Ad}^*_f \left(\mu_k + \mathsf T_e^* \mathsf L_g \cdot \mathbf D_g L_d\right)$,
+/// and the transported momentum in it is $\mu_{k+1}$ where the residual vanishes.
+pub(crate) struct Balance<G: RealGroup, S: Scalar> {
+    pub(crate) f: Over<G, S>,
+    pub(crate) derivatives: Derivatives<G, S>,
+    /// $\mathrm{Ad}^*_f (\mu_k + d_g)$.
+    pub(crate) transported: DualOver<G, S>,
+    /// $d_f - \mathrm{Ad}^*_f (\mu_k + d_g)$.
+    pub(crate) residual: DualOver<G, S>,
+    momentum: DualOver<G, S>,
+}
+
+impl<G: RealGroup, S: Scalar> Balance<G, S> {
+    pub(crate) fn new(g: &Over<G, S>) -> Self {
+        Self {
+            f: g.clone(),
+            derivatives: Derivatives::new(g),
+            transported: g.zero_dual(),
+            residual: g.zero_dual(),
+            momentum: g.zero_dual(),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn retract<R: Retraction>(&mut self, c: &AlgebraOver<G, S>) {
+        R::retract_into::<Over<G, S>>(c, &mut self.f);
+    }
+
+    /// Fills all fields from `f`.
+    #[inline(always)]
+    pub(crate) fn evaluate<L: DiscreteLagrangian<Group = G>>(
+        &mut self,
+        lagrangian: &L,
+        g: &Over<G, S>,
+        mu: &DualOver<G, S>,
+        h: S,
+    ) {
+        lagrangian.derivatives(g, &self.f, h, &mut self.derivatives);
+        self.momentum.clone_from(mu);
+        self.momentum.add_scaled(S::one(), &self.derivatives.d_g);
+        self.f.coadjoint_into(&self.momentum, &mut self.transported);
+        self.residual.clone_from(&self.derivatives.d_f);
+        self.residual.add_scaled(-S::one(), &self.transported);
+    }
+}

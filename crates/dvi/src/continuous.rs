@@ -1,0 +1,30 @@
+//! Continuous systems in Hamiltonian form.
+
+use lie::{AlgebraOver, DualOver, Over, RealGroup, Scalar};
+
+/// Hamilton's equations on a left-trivialised cotangent bundle, (8)–(9):
+/// $\dot g = g\,\xi$, $\dot\mu = \mathrm{ad}^*_\xi \mu + \tau$.
+///
+/// This is what explicit baselines and collocation methods integrate.
+pub trait ContinuousSystem {
+    /// The configuration group.
+    type Group: RealGroup;
+
+    /// Storage for an evaluation over the scalar `S`; `()` where none is needed.
+    type Workspace<S: Scalar>;
+
+    /// Storage for [`velocity_and_force`](Self::velocity_and_force).
+    fn workspace<S: Scalar>(&self) -> Self::Workspace<S>;
+
+    /// The velocity $\xi$ with $\mu = \mathbf D_\xi L(g, \xi)$, and the force $\tau = \mathsf T_e^* \mathsf L_g \cdot \mathbf D_g L(g, \xi)$.
+    ///
+    /// Writes every coordinate of `xi` and `tau`.
+    fn velocity_and_force<S: Scalar>(
+        &self,
+        g: &Over<Self::Group, S>,
+        mu: &DualOver<Self::Group, S>,
+        workspace: &mut Self::Workspace<S>,
+        xi: &mut AlgebraOver<Self::Group, S>,
+        tau: &mut DualOver<Self::Group, S>,
+    );
+}

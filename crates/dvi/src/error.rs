@@ -1,0 +1,76 @@
+//! What an integrator answers when it cannot step.
+
+use thiserror::Error;
+
+/// Why a step was not taken. The state is as it was before.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The implicit equation was not solved.
+    #[error(
+        "step {step} at t = {t} s: no solution for h = {h} s after {iterations} iterations (residual {residual:.1e} of the momentum); {hint}"
+    )]
+    NotConverged {
+        /// Steps that this integrator has taken before.
+        step: u64,
+        /// Time at the start of the step, in seconds.
+        t: f64,
+        /// Step size, in seconds.
+        h: f64,
+        /// The smallest residual reached, relative to the momentum's size.
+        residual: f64,
+        /// Iterations done.
+        iterations: u32,
+        /// What to try.
+        hint: Hint,
+    },
+    /// The step size is zero or not finite.
+    #[error(
+        "step {step} at t = {t} s: the step size is {h} s; expected a finite number other than zero"
+    )]
+    InvalidStep {
+        /// Steps that this integrator has taken before.
+        step: u64,
+        /// Time at the start of the step, in seconds.
+        t: f64,
+        /// Step size, in seconds.
+        h: f64,
+    },
+    /// The state or the model gave a number that is not finite.
+    #[error(
+        "step {step} at t = {t} s: the momentum or the discrete Lagrangian's derivatives are not finite before the step; check the initial state and the model's parameters"
+    )]
+    NotFinite {
+        /// Steps that this integrator has taken before.
+        step: u64,
+        /// Time at the start of the step, in seconds.
+        t: f64,
+        /// Step size, in seconds.
+        h: f64,
+    },
+}
+
+/// What to try after a step that did not converge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Hint {
+    /// The iteration diverged: the step is too long for the motion.
+    SmallerStep {
+        /// A step size to try, in seconds.
+        h: f64,
+    },
+    /// The iteration stood still just above the tolerance: rounding reaches no further.
+    LooserTolerance {
+        /// A relative tolerance to try.
+        tolerance: f64,
+    },
+}
+
+impl core::fmt::Display for Hint {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::SmallerStep { h } => write!(f, "try a step of {h:.1e} s"),
+            Self::LooserTolerance { tolerance } => write!(f, "try a tolerance of {tolerance:.0e}"),
+        }
+    }
+}

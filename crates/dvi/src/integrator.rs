@@ -1,0 +1,39 @@
+//! The one interface of all integrators.
+
+use lie::RealGroup;
+
+use crate::{State, StepError};
+
+/// Advances a [`State`] in time.
+///
+/// Traits of systems are generic over scalars, so they have no objects; an integrator is where a method is
+/// chosen at run time: `Box<dyn Integrator<Group = G>>`.
+pub trait Integrator {
+    /// Where the configuration lives.
+    type Group: RealGroup;
+
+    /// The order: the error at a fixed time falls as $h^{\text{order}}$.
+    fn order(&self) -> u32;
+
+    /// Whether a step of $-h$ undoes a step of $h$.
+    fn is_symmetric(&self) -> bool;
+
+    /// Whether a step preserves the symplectic form.
+    fn is_symplectic(&self) -> bool;
+
+    /// Advances the state by `h` seconds.
+    ///
+    /// # Errors
+    /// [`StepError`], and the state is as it was.
+    fn step(&mut self, state: &mut State<Self::Group>, h: f64) -> Result<StepReport, StepError>;
+}
+
+/// What a step cost and how well it was solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct StepReport {
+    /// Evaluations of the step's equation.
+    pub iterations: u32,
+    /// Largest component of the equation's residual, relative to the momentum's size.
+    pub residual: f64,
+}

@@ -1,0 +1,56 @@
+//! Dual copies of group elements, moved along the basis of the algebra in chunks.
+
+use lie::{AlgebraOver, Jet, LieGroup, Over, RealGroup, Scalar};
+
+/// Calls `body` with the first direction of every chunk.
+#[inline(always)]
+pub(crate) fn for_each_chunk(dim: usize, body: impl FnMut(usize)) {
+    (0..dim).step_by(lie::JET_DIRECTIONS).for_each(body);
+}
+
+/// $g$ and $f$ over the duals of `S`, with room for the moved one.
+pub(crate) struct Lifted<G: RealGroup, S: Scalar> {
+    g: Over<G, S::Jet>,
+    f: Over<G, S::Jet>,
+    zeta: AlgebraOver<G, S::Jet>,
+    small: Over<G, S::Jet>,
+    moved: Over<G, S::Jet>,
+}
+
+impl<G: RealGroup, S: Scalar> Lifted<G, S> {
+    pub(crate) fn new(g: &Over<G, S>) -> Self {
+        let g = G::convert::<S, S::Jet>(g, Jet::constant);
+        let zeta = g.zero_algebra();
+        Self {
+            f: g.clone(),
+            small: g.clone(),
+            moved: g.clone(),
+            g,
+            zeta,
+        }
+    }
+
+    pub(crate) fn set(&mut self, g: &Over<G, S>, f: &Over<G, S>) {
+        G::convert_into::<S, S::Jet>(g, Jet::constant, &mut self.g);
+        G::convert_into::<S, S::Jet>(f, Jet::constant, &mut self.f);
+    }
+
+    /// $(g, f \exp\zeta)$ with the directions from `first` on; to first order, any retraction is the exponential.
+    pub(crate) fn moving_f(&mut self, first: usize) -> (&Over<G, S::Jet>, &Over<G, S::Jet>) {
+        self.step_along(first);
+        self.f.compose_into(&self.small, &mut self.moved);
+        (&self.g, &self.moved)
+    }
+
+    /// $(g \exp\eta, f)$, likewise.
+    pub(crate) fn moving_g(&mut self, first: usize) -> (&Over<G, S::Jet>, &Over<G, S::Jet>) {
+        self.step_along(first);
+        self.g.compose_into(&self.small, &mut self.moved);
+        (&self.moved, &self.f)
+    }
+
+    fn step_along(&mut self, first: usize) {
+        lie::seed(&mut self.zeta, first);
+        Over::<G, S::Jet>::cayley_into(&self.zeta, &mut self.small);
+    }
+}

@@ -1,0 +1,103 @@
+//! Dense linear systems of run-time size, solved in place by `faer`.
+
+use core::ops::Range;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::perm::PermRef;
+use faer::{Mat, MatMut, Par, Spec};
+
+/// A square matrix, its LU factorisation with partial pivoting, and a right-hand side.
+///
+/// A singular matrix is not an error here: the solution is then not finite, and the iteration sees that.
+pub(crate) struct Factorisation {
+    matrix: Mat<f64>,
+    factors: Mat<f64>,
+    forward: Vec<usize>,
+    inverse: Vec<usize>,
+    rhs: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl Factorisation {
+    pub(crate) fn new(n: usize) -> Self {
+        let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default());
+        let solve = solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
+        Self {
+            matrix: Mat::zeros(n, n),
+            factors: Mat::zeros(n, n),
+            forward: vec![0; n],
+            inverse: vec![0; n],
+            rhs: vec![0.0; n],
+            memory: MemBuffer::new(factor.or(solve)),
+        }
+    }
+
+    pub(crate) fn set(&mut self, row: usize, column: usize, value: f64) {
+        self.matrix[(row, column)] = value;
+    }
+
+    /// Takes over the block of `whole` in these rows and columns.
+    pub(crate) fn copy_block(&mut self, whole: &Self, block: Range<usize>) {
+        for (j, column) in block.clone().enumerate() {
+            for (i, row) in block.clone().enumerate() {
+                self.matrix[(i, j)] = whole.matrix[(row, column)];
+            }
+        }
+    }
+
+    pub(crate) fn factorise(&mut self) {
+        self.factors.copy_from(&self.matrix);
+        factor::lu_in_place(
+            self.factors.as_mut(),
+            &mut self.forward,
+            &mut self.inverse,
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Spec::default(),
+        );
+    }
+
+    pub(crate) fn right_hand_side(&mut self) -> &mut [f64] {
+        &mut self.rhs
+    }
+
+    /// Replaces the right-hand side by the solution.
+    pub(crate) fn solve(&mut self) -> &[f64] {
+        let n = self.rhs.len();
+        let permutation = PermRef::new_checked(&self.forward, &self.inverse, n);
+        solve::solve_in_place(
+            self.factors.as_ref(),
+            self.factors.as_ref(),
+            permutation,
+            MatMut::from_column_major_slice_mut(&mut self.rhs, n, 1),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+        );
+        &self.rhs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solves_what_needs_pivoting_and_does_not_panic_on_the_singular() {
+        let mut system = Factorisation::new(3);
+        let rows = [[0.0, 2.0, 1.0], [1.0, 0.0, 0.0], [3.0, 0.0, 4.0]];
+        for (i, row) in rows.iter().enumerate() {
+            row.iter()
+                .enumerate()
+                .for_each(|(j, x)| system.set(i, j, *x));
+        }
+        system.factorise();
+        system.right_hand_side().copy_from_slice(&[7.0, 1.0, 15.0]);
+        assert_eq!(system.solve(), [1.0, 2.0, 3.0]);
+        system.set(1, 0, 0.0);
+        system.set(2, 0, 0.0);
+        system.factorise();
+        system.right_hand_side().copy_from_slice(&[7.0, 1.0, 15.0]);
+        assert!(system.solve().iter().any(|x| !x.is_finite()));
+    }
+}

@@ -1,0 +1,113 @@
+//! Newton's method with the matrix from dual numbers.
+
+use core::ops::Range;
+
+use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
+
+use crate::DiscreteLagrangian;
+use crate::balance::Balance;
+use crate::jets::for_each_chunk;
+use crate::linear::Factorisation;
+use crate::solver::{Algebra, Dual, StepSolver};
+
+type J = <f64 as Scalar>::Jet;
+
+/// Simplified Newton: the exact matrix of the momentum balance by dual numbers, kept until convergence slows.
+///
+/// Needs nothing but the discrete Lagrangian's value. The solve is dense, of the size of the group's dimension.
+pub struct Newton<G: RealGroup> {
+    matrix: Factorisation,
+    cyclic: Option<Factorisation>,
+    known: bool,
+    h: f64,
+    balance: Balance<G, J>,
+    g: Over<G, J>,
+    mu: DualOver<G, J>,
+    c: AlgebraOver<G, J>,
+}
+
+impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
+    fn allocate(lagrangian: &L, g: &L::Group) -> Self {
+        let (dim, cyclic) = (g.zero_dual().dim(), lagrangian.cyclic());
+        let g = g.lift::<J>();
+        Self {
+            matrix: Factorisation::new(dim),
+            cyclic: (!cyclic.is_empty()).then(|| Factorisation::new(cyclic.len())),
+            known: false,
+            h: 0.0,
+            balance: Balance::new(&g),
+            mu: g.zero_dual(),
+            c: g.zero_algebra(),
+            g,
+        }
+    }
+
+    fn begin(&mut self, _: &L, _: &L::Group, _: &Dual<L>, h: f64) {
+        self.known &= h == self.h;
+        self.h = h;
+    }
+
+    fn is_stale(&self) -> bool {
+        !self.known
+    }
+
+    fn renew<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        g: &L::Group,
+        mu: &Dual<L>,
+        h: f64,
+        c: &Algebra<L>,
+    ) {
+        <L::Group as LieGroup>::convert_into::<f64, J>(g, J::constant, &mut self.g);
+        (0..mu.dim()).for_each(|i| self.mu.set(i, J::constant(mu.get(i))));
+        for_each_chunk(mu.dim(), |first| {
+            lie::seed(&mut self.c, first);
+            for i in 0..c.dim() {
+                self.c.set(i, self.c.get(i) + J::constant(c.get(i)));
+            }
+            self.balance.retract::<R>(&self.c);
+            self.balance
+                .evaluate(lagrangian, &self.g, &self.mu, J::constant(h));
+            let last = mu.dim().min(first + lie::JET_DIRECTIONS);
+            for column in first..last {
+                for row in 0..mu.dim() {
+                    let entry = self.balance.residual.get(row).partial(column - first);
+                    self.matrix.set(row, column, entry);
+                }
+            }
+        });
+        if let Some(block) = &mut self.cyclic {
+            block.copy_block(&self.matrix, lagrangian.cyclic());
+            block.factorise();
+        }
+        self.matrix.factorise();
+        self.known = true;
+    }
+
+    fn solve(&mut self, _: &L, residual: &Dual<L>, delta: &mut Algebra<L>) {
+        residual.write(self.matrix.right_hand_side());
+        delta.read(self.matrix.solve());
+    }
+
+    fn solve_cyclic(
+        &mut self,
+        residual: &Dual<L>,
+        cyclic: Range<usize>,
+        delta: &mut Algebra<L>,
+    ) -> bool {
+        let Some(block) = &mut self.cyclic else {
+            return false;
+        };
+        let rhs = block.right_hand_side();
+        cyclic
+            .clone()
+            .enumerate()
+            .for_each(|(k, i)| rhs[k] = residual.get(i));
+        delta.set_zero();
+        cyclic
+            .zip(block.solve())
+            .for_each(|(i, x)| delta.set(i, *x));
+        true
+    }
+}

@@ -1,0 +1,55 @@
+//! How the momentum balance of a step is solved.
+
+use core::ops::Range;
+
+use lie::{LieGroup, Retraction};
+
+use crate::DiscreteLagrangian;
+
+/// The matrix of a Newton or quasi-Newton iteration on the momentum balance, in the coordinates $c$ of $f = \tau(c)$.
+///
+/// [`Newton`](crate::Newton) takes it from dual numbers, [`FrozenInertia`](crate::FrozenInertia) from the model.
+pub trait StepSolver<L: DiscreteLagrangian> {
+    /// Storage for groups of the shape of `g`.
+    fn allocate(lagrangian: &L, g: &L::Group) -> Self;
+
+    /// Prepares the step from $(g, \mu)$ of size `h`.
+    fn begin(&mut self, lagrangian: &L, g: &L::Group, mu: &Dual<L>, h: f64);
+
+    /// Solves the equations of the cyclic coordinates of `f` for given others, where the model does it exactly.
+    fn eliminate(&self, _lagrangian: &L, _mu: &Dual<L>, _h: f64, _f: &mut L::Group) {}
+
+    /// Whether there is no matrix yet that fits the step's size.
+    fn is_stale(&self) -> bool {
+        false
+    }
+
+    /// Renews the matrix at `c`, where it can be.
+    fn renew<R: Retraction>(
+        &mut self,
+        _lagrangian: &L,
+        _g: &L::Group,
+        _mu: &Dual<L>,
+        _h: f64,
+        _c: &Algebra<L>,
+    ) {
+    }
+
+    /// The correction $\delta$ that the linearised residual asks for; `c - delta` is the next iterate.
+    fn solve(&mut self, lagrangian: &L, residual: &Dual<L>, delta: &mut Algebra<L>);
+
+    /// The correction of the cyclic coordinates alone, zero elsewhere; false where [`eliminate`](Self::eliminate) has solved them.
+    fn solve_cyclic(
+        &mut self,
+        _residual: &Dual<L>,
+        _cyclic: Range<usize>,
+        _delta: &mut Algebra<L>,
+    ) -> bool {
+        false
+    }
+}
+
+/// The algebra of a Lagrangian's group.
+pub(crate) type Algebra<L> = <<L as DiscreteLagrangian>::Group as LieGroup>::Algebra;
+/// The dual of the algebra of a Lagrangian's group.
+pub(crate) type Dual<L> = <<L as DiscreteLagrangian>::Group as LieGroup>::Dual;

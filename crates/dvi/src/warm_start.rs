@@ -1,0 +1,110 @@
+//! The first guess of a step, extrapolated from the steps before.
+
+/// Highest degree of the extrapolating polynomial.
+const DEGREE: usize = 4;
+
+/// The backward differences $\nabla^0 c, \dots, \nabla^{d+1} c$ of the solutions at equal steps.
+///
+/// Extrapolating by degree $d$ is summing the first $d + 1$ of them, and $\nabla^{d+1} c$ is the error that this
+/// made in the last step; the degree with the smallest error then is used next.
+pub(crate) struct WarmStart {
+    differences: [Vec<f64>; DEGREE + 2],
+    /// Differences that are known.
+    known: usize,
+    h: f64,
+}
+
+impl WarmStart {
+    pub(crate) fn new(dim: usize) -> Self {
+        Self {
+            differences: core::array::from_fn(|_| vec![0.0; dim]),
+            known: 0,
+            h: 0.0,
+        }
+    }
+
+    pub(crate) fn forget(&mut self) {
+        self.known = 0;
+    }
+
+    /// Writes the guess for a step of size `h`; false, and zero, where nothing is known.
+    pub(crate) fn guess(&mut self, h: f64, out: &mut [f64]) -> bool {
+        if h != self.h {
+            self.forget();
+        }
+        out.fill(0.0);
+        let terms = self.terms();
+        for difference in &self.differences[..terms] {
+            add(out, difference);
+        }
+        terms > 0
+    }
+
+    fn terms(&self) -> usize {
+        let error = |terms: &usize| size(&self.differences[*terms]);
+        // With one solution known there is no error to compare by: repeat it.
+        let candidates = 1..self.known.max(2);
+        let best = candidates.min_by(|a, b| error(a).total_cmp(&error(b)));
+        best.unwrap_or(0).min(self.known)
+    }
+
+    pub(crate) fn record(&mut self, h: f64, solution: &[f64]) {
+        if h != self.h {
+            (self.h, self.known) = (h, 0);
+        }
+        let last = DEGREE + 1;
+        self.differences.rotate_right(1);
+        // Now index k holds the old difference of order k - 1; index 0 is the one to overwrite.
+        self.differences[0].copy_from_slice(solution);
+        for k in 1..=last {
+            let (lower, upper) = self.differences.split_at_mut(k);
+            for (old, new) in upper[0].iter_mut().zip(&lower[k - 1]) {
+                *old = *new - *old;
+            }
+        }
+        self.known = (self.known + 1).min(last + 1);
+    }
+}
+
+#[inline(always)]
+fn add(sum: &mut [f64], x: &[f64]) {
+    sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
+}
+
+#[inline(always)]
+fn size(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |max, x| max.max(x.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_is_continued_exactly() {
+        let mut warm = WarmStart::new(1);
+        let cubic = |k: i32| f64::from(k * k * k - 2 * k);
+        let mut guess = [0.0];
+        assert!(!warm.guess(0.1, &mut guess));
+        for k in 0..8 {
+            warm.record(0.1, &[cubic(k)]);
+        }
+        assert!(warm.guess(0.1, &mut guess));
+        assert_eq!(guess, [cubic(8)]);
+        assert!(
+            !warm.guess(0.2, &mut guess),
+            "another step size starts afresh"
+        );
+    }
+
+    #[test]
+    fn noise_is_not_amplified() {
+        let mut warm = WarmStart::new(1);
+        for k in 0..20 {
+            warm.record(1.0, &[if k % 2 == 0 { 1.0 } else { -1.0 }]);
+        }
+        let mut guess = [0.0];
+        warm.guess(1.0, &mut guess);
+        assert!(guess[0].abs() <= 1.0, "{guess:?}");
+    }
+}

@@ -1,0 +1,195 @@
+//! The two backends behind one set of strokes and texts.
+//!
+//! Backends count in whole pixels. The SVG is therefore drawn on a finer grid
+//! than its nominal size, and the bitmap is drawn larger and averaged, which
+//! also smooths its edges.
+
+use plotters::backend::{BitMapBackend, DrawingBackend, SVGBackend};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontTransform, IntoFont, RGBColor, ShapeStyle, TextStyle};
+
+use super::layout::Layout;
+use super::thin::Pixel;
+use super::{Figure, FigureError, draw, font, write};
+
+/// Grid cells per pixel.
+const SVG_SCALE: u32 = 4;
+const PNG_SCALE: u32 = 3;
+
+/// A backend with its scale and its ways with text.
+pub(super) struct Surface<B> {
+    backend: B,
+    scale: f64,
+    /// Font size of the backend per em.
+    size_per_em: f64,
+    /// From the middle of a capital to the backend's idea of it, in ems.
+    drop: f64,
+    /// Whether a path is stroked as a whole.
+    joins: bool,
+    /// Grid cells by which strokes come out wider than asked for.
+    swell: f64,
+}
+
+/// A text to draw, its capitals centred on the vertical position.
+pub(super) struct Text<'a> {
+    pub(super) text: &'a str,
+    pub(super) at: Pixel,
+    /// Size of the em in pixels.
+    pub(super) size: f64,
+    pub(super) align: HPos,
+    /// Read from bottom to top.
+    pub(super) upright: bool,
+    pub(super) colour: RGBColor,
+}
+
+/// The figure as an SVG document.
+pub(super) fn svg(figure: &Figure, layout: &Layout) -> Result<String, FigureError> {
+    let (width, height) = size(layout, 1);
+    let mut document = String::new();
+    let mut surface = Surface {
+        backend: SVGBackend::with_string(&mut document, size(layout, SVG_SCALE)),
+        scale: f64::from(SVG_SCALE),
+        size_per_em: 1.24,
+        drop: 0.09,
+        joins: true,
+        swell: 0.0,
+    };
+    draw::draw(figure, layout, &mut surface)?;
+    surface.backend.present().map_err(FigureError::draw)?;
+    drop(surface);
+    let (wide, high) = size(layout, SVG_SCALE);
+    Ok(document.replacen(
+        &format!("width=\"{wide}\" height=\"{high}\""),
+        &format!("width=\"{width}\" height=\"{height}\""),
+        1,
+    ))
+}
+
+/// The figure as an encoded PNG.
+pub(super) fn png(figure: &Figure, layout: &Layout) -> Result<Vec<u8>, FigureError> {
+    let (wide, high) = size(layout, PNG_SCALE);
+    let mut pixels = vec![255; wide as usize * high as usize * 3];
+    let mut surface = Surface {
+        backend: BitMapBackend::with_buffer(&mut pixels, (wide, high)),
+        scale: f64::from(PNG_SCALE),
+        size_per_em: font::LINE_PER_EM,
+        drop: 0.252,
+        joins: false,
+        swell: 1.0,
+    };
+    draw::draw(figure, layout, &mut surface)?;
+    surface.backend.present().map_err(FigureError::draw)?;
+    drop(surface);
+    let averaged = average(&pixels, wide as usize, PNG_SCALE as usize);
+    write::encode_png(&averaged, size(layout, 1))
+}
+
+fn size(layout: &Layout, scale: u32) -> (u32, u32) {
+    (
+        layout.width.ceil() as u32 * scale,
+        layout.height.ceil() as u32 * scale,
+    )
+}
+
+/// Replaces each square of `n` by `n` pixels by its mean colour.
+fn average(pixels: &[u8], width: usize, n: usize) -> Vec<u8> {
+    let out = width / n;
+    let mut averaged = Vec::with_capacity(pixels.len() / (n * n));
+    for block in pixels.chunks_exact(3 * width * n) {
+        let mut sums = vec![0_u32; 3 * out];
+        for row in block.chunks_exact(3 * width) {
+            for (k, value) in row.iter().enumerate() {
+                sums[k / 3 / n * 3 + k % 3] += u32::from(*value);
+            }
+        }
+        let count = (n * n) as u32;
+        averaged.extend(sums.iter().map(|s| ((s + count / 2) / count) as u8));
+    }
+    averaged
+}
+
+impl<B: DrawingBackend> Surface<B> {
+    fn grid(&self, (x, y): Pixel) -> (i32, i32) {
+        (
+            (x * self.scale).round() as i32,
+            (y * self.scale).round() as i32,
+        )
+    }
+
+    /// Fills the rectangle between two corners.
+    pub(super) fn fill(&mut self, a: Pixel, b: Pixel, colour: RGBColor) -> Result<(), FigureError> {
+        let (a, b) = (self.grid(a), self.grid(b));
+        self.backend
+            .draw_rect(a, b, &colour.filled(), true)
+            .map_err(FigureError::draw)
+    }
+
+    /// Strokes a path of a width in pixels.
+    pub(super) fn stroke(
+        &mut self,
+        path: &[Pixel],
+        colour: RGBColor,
+        width: f64,
+    ) -> Result<(), FigureError> {
+        let stroke = (width * self.scale - self.swell).round().max(1.0);
+        let style = ShapeStyle::from(&colour).stroke_width(stroke as u32);
+        if self.joins {
+            let path: Vec<_> = path.iter().map(|p| self.grid(*p)).collect();
+            let drawn = self.backend.draw_path(path, &style);
+            return drawn.map_err(FigureError::draw);
+        }
+        for k in 1..path.len() {
+            let (a, b) = (path[k - 1], path[k]);
+            // Overlapping ends close the notches between two segments.
+            let before = if k > 1 { width / 2.0 } else { 0.0 };
+            let after = if k + 1 < path.len() { width / 2.0 } else { 0.0 };
+            let (a, b) = (beyond(b, a, before), beyond(a, b, after));
+            self.backend
+                .draw_line(self.grid(a), self.grid(b), &style)
+                .map_err(FigureError::draw)?;
+        }
+        Ok(())
+    }
+
+    /// Draws a text.
+    pub(super) fn text(&mut self, text: &Text) -> Result<(), FigureError> {
+        let font = (font::FAMILY, text.size * self.size_per_em * self.scale).into_font();
+        let drop = self.drop * text.size;
+        let (x, y) = text.at;
+        let (font, at) = if text.upright {
+            (font.transform(FontTransform::Rotate270), (x + drop, y))
+        } else {
+            (font, (x, y + drop))
+        };
+        let style = TextStyle::from(font)
+            .color(&text.colour)
+            .pos(Pos::new(text.align, VPos::Center));
+        self.backend
+            .draw_text(text.text, &style, self.grid(at))
+            .map_err(FigureError::draw)
+    }
+}
+
+/// The point a length behind `to` on the ray from `from`.
+fn beyond(from: Pixel, to: Pixel, length: f64) -> Pixel {
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let distance = dx.hypot(dy);
+    if distance == 0.0 {
+        return to;
+    }
+    let f = length / distance;
+    (to.0 + f * dx, to.1 + f * dy)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn averaging_mixes_squares() {
+        let (w, b) = ([255_u8; 3], [0_u8; 3]);
+        let rows = [[w, b, b, b], [b, w, b, b]];
+        let pixels: Vec<u8> = rows.as_flattened().as_flattened().to_vec();
+        assert_eq!(average(&pixels, 4, 2), [128, 128, 128, 0, 0, 0]);
+    }
+}

@@ -1,0 +1,312 @@
+//! The Runge–Kutta baseline against exact solutions, and what it refuses.
+
+use study::baseline::{BaselineError, Pair, Samples, Tolerance, integrate};
+
+const PAIRS: [Pair; 2] = [Pair::DormandPrince54, Pair::DormandPrince853];
+
+fn oscillator(_t: f64, y: &[f64], dy: &mut [f64]) {
+    dy[0] = y[1];
+    dy[1] = -y[0];
+}
+
+fn oscillate(pair: Pair, until: f64, every: f64, tolerance: f64) -> Samples {
+    let tolerance = Tolerance::uniform(tolerance);
+    integrate(pair, oscillator, &[1.0, 0.0], until, every, tolerance).expect("an oscillator")
+}
+
+fn worst(run: &Samples, exact: impl Fn(f64) -> Vec<f64>) -> f64 {
+    let errors = run.t.iter().zip(&run.y).flat_map(|(&t, y)| {
+        let exact = exact(t);
+        y.iter()
+            .zip(exact)
+            .map(|(a, b)| (a - b).abs())
+            .collect::<Vec<_>>()
+    });
+    errors.fold(0.0, f64::max)
+}
+
+fn cosine(t: f64) -> Vec<f64> {
+    vec![t.cos(), -t.sin()]
+}
+
+/// Jacobi's sn, cn and dn by the descending arithmetic-geometric mean.
+fn jacobi(u: f64, m: f64) -> [f64; 3] {
+    let (mut a, mut b) = (1.0_f64, (1.0 - m).sqrt());
+    let mut ratios = Vec::new();
+    while (a - b).abs() > 1e-16 && ratios.len() < 8 {
+        let (mean, half) = ((a + b) / 2.0, (a - b) / 2.0);
+        b = (a * b).sqrt();
+        a = mean;
+        ratios.push(half / mean);
+    }
+    let mut phi = a * u * f64::from(1 << ratios.len());
+    for ratio in ratios.iter().rev() {
+        phi = (phi + (ratio * phi.sin()).asin()) / 2.0;
+    }
+    let (sn, cn) = phi.sin_cos();
+    [sn, cn, (1.0 - m * sn * sn).sqrt()]
+}
+
+/// Free rigid body with inertia (1, 2, 3), started at ω = (1, 0, 1).
+fn body(_t: f64, w: &[f64], dw: &mut [f64]) {
+    dw[0] = -w[1] * w[2];
+    dw[1] = w[2] * w[0];
+    dw[2] = -w[0] * w[1] / 3.0;
+}
+
+/// Its exact motion (Landau and Lifshitz, § 37).
+fn body_exact(t: f64) -> Vec<f64> {
+    let [sn, cn, dn] = jacobi(t, 1.0 / 3.0);
+    vec![cn, sn, dn]
+}
+
+#[test]
+fn jacobi_solves_the_rigid_body() {
+    for k in 0..40 {
+        let (t, h) = (0.37 * f64::from(k), 1e-5);
+        let (a, b) = (body_exact(t - h), body_exact(t + h));
+        let mut rate = [0.0; 3];
+        body(t, &body_exact(t), &mut rate);
+        for i in 0..3 {
+            assert!(((b[i] - a[i]) / (2.0 * h) - rate[i]).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_tight_tolerance_is_a_reference() {
+    let error = worst(
+        &oscillate(Pair::DormandPrince853, 100.0, 0.0137, 1e-13),
+        cosine,
+    );
+    assert!(error < 4e-12, "oscillator {error:e}");
+
+    let tolerance = Tolerance::uniform(1e-13);
+    let run = integrate(
+        Pair::DormandPrince853,
+        body,
+        &[1.0, 0.0, 1.0],
+        100.0,
+        0.0137,
+        tolerance,
+    )
+    .expect("a rigid body");
+    let error = worst(&run, body_exact);
+    assert!(error < 4e-12, "rigid body {error:e}");
+}
+
+#[test]
+fn the_error_follows_the_tolerance() {
+    for pair in PAIRS {
+        let mut last = f64::INFINITY;
+        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+            let error = worst(&oscillate(pair, 20.0, 0.1, tolerance), cosine);
+            assert!(error < 100.0 * tolerance, "{pair} {tolerance:e}: {error:e}");
+            assert!(error < last / 20.0, "{pair} {tolerance:e}: {error:e}");
+            last = error;
+        }
+    }
+}
+
+#[test]
+fn the_number_of_steps_shows_the_order() {
+    for (pair, order) in PAIRS.into_iter().zip([5.0, 8.0]) {
+        let steps = |tolerance| oscillate(pair, 200.0, 200.0, tolerance).accepted as f64;
+        let slope = 1e3_f64.log10() / (steps(1e-11) / steps(1e-8)).log10();
+        assert!((slope - order).abs() < 0.3, "{pair}: {slope}");
+    }
+}
+
+#[test]
+fn samples_between_steps_are_as_exact_as_steps() {
+    for pair in PAIRS {
+        let tolerance = 1e-10;
+        // One long step: where an interpolant would be at its worst.
+        let run = oscillate(pair, 0.5, 0.003, tolerance);
+        let error = worst(&run, cosine);
+        assert!(error < 5.0 * tolerance, "{pair}: {error:e}");
+    }
+}
+
+#[test]
+fn sampling_does_not_change_the_steps() {
+    for pair in PAIRS {
+        let (coarse, fine) = (
+            oscillate(pair, 30.0, 30.0, 1e-8),
+            oscillate(pair, 30.0, 0.01, 1e-8),
+        );
+        assert_eq!(coarse.y.last(), fine.y.last());
+        assert_eq!(coarse.evaluations, fine.evaluations);
+        assert_eq!(coarse.accepted, fine.accepted);
+        assert_eq!(coarse.sampling_evaluations, 0);
+        assert!(fine.sampling_evaluations > 0);
+    }
+}
+
+#[test]
+fn the_grid_is_exact() {
+    for pair in PAIRS {
+        let run = oscillate(pair, 1.0, 0.3, 1e-6);
+        assert_eq!(run.t, [0.0, 0.3, 0.6, 0.3 * 3.0, 1.0]);
+        assert_eq!(run.y[0], [1.0, 0.0]);
+        assert_eq!(run.y.len(), run.t.len());
+
+        let run = oscillate(pair, 0.3, 0.1, 1e-6);
+        assert_eq!(run.t, [0.0, 0.1, 0.2, 0.3]);
+
+        let run = oscillate(pair, 50.0, 0.001, 1e-9);
+        assert_eq!(run.t.len(), 50_001);
+        assert!(run.t.windows(2).all(|w| w[0] < w[1]));
+        assert_eq!(run.t[33_333], 0.001 * 33_333.0);
+    }
+}
+
+#[test]
+fn every_call_is_counted() {
+    for pair in PAIRS {
+        let mut calls = 0;
+        let rhs = |t: f64, y: &[f64], dy: &mut [f64]| {
+            calls += 1;
+            oscillator(t, y, dy);
+        };
+        let run = integrate(pair, rhs, &[1.0, 0.0], 10.0, 0.1, Tolerance::uniform(1e-6)).unwrap();
+        assert_eq!(calls, run.evaluations + run.sampling_evaluations);
+        assert!(run.evaluations >= 6 * run.accepted);
+    }
+}
+
+#[test]
+fn more_steps_than_the_stepper_takes_in_one_go() {
+    let run = oscillate(Pair::DormandPrince54, 2000.0, 100.0, 1e-13);
+    assert!(run.accepted > 150_000, "{}", run.accepted);
+    let error = worst(&run, cosine);
+    assert!(error < 1e-9, "{error:e}");
+}
+
+#[test]
+fn a_stiff_problem_is_slow_but_done() {
+    let rhs = |t: f64, y: &[f64], dy: &mut [f64]| dy[0] = -2000.0 * (y[0] - t.cos());
+    for pair in PAIRS {
+        let run = integrate(pair, rhs, &[1.0], 20.0, 1.0, Tolerance::uniform(1e-6)).unwrap();
+        assert!(run.accepted > 5000);
+        assert!((run.y[20][0] - 20.0_f64.cos()).abs() < 1e-2);
+    }
+}
+
+#[test]
+fn rest_stays_at_rest() {
+    for pair in PAIRS {
+        let still = |_t: f64, _y: &[f64], dy: &mut [f64]| dy.fill(0.0);
+        let run = integrate(pair, still, &[0.0, 2.0], 5.0, 0.5, Tolerance::uniform(1e-9)).unwrap();
+        assert!(run.y.iter().all(|y| y[..] == [0.0, 2.0]));
+    }
+}
+
+#[test]
+fn inputs_out_of_range_are_named() {
+    let run = |y0: &[f64], until, every, relative, absolute| {
+        let tolerance = Tolerance { relative, absolute };
+        integrate(
+            Pair::DormandPrince54,
+            oscillator,
+            y0,
+            until,
+            every,
+            tolerance,
+        )
+        .expect_err("an input out of range")
+    };
+    let y0 = [1.0, 0.0];
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let is_tolerance = |e| matches!(e, BaselineError::Tolerance { .. });
+        assert!(is_tolerance(run(&y0, 1.0, 0.1, bad, 1e-9)));
+        assert!(is_tolerance(run(&y0, 1.0, 0.1, 1e-9, bad)));
+        assert!(matches!(
+            run(&y0, bad, 0.1, 1e-9, 1e-9),
+            BaselineError::Until { .. }
+        ));
+        assert!(matches!(
+            run(&y0, 1.0, bad, 1e-9, 1e-9),
+            BaselineError::Every { .. }
+        ));
+    }
+    assert_eq!(run(&[], 1.0, 0.1, 1e-9, 1e-9), BaselineError::EmptyState);
+    assert!(matches!(
+        run(&[1.0, f64::NAN], 1.0, 0.1, 1e-9, 1e-9),
+        BaselineError::InitialState { index: 1, .. }
+    ));
+    assert!(matches!(
+        run(&y0, 1.0, 1e-12, 1e-9, 1e-9),
+        BaselineError::TooManySamples { .. }
+    ));
+}
+
+#[test]
+fn a_right_hand_side_that_stays_nan_is_an_error() {
+    for pair in PAIRS {
+        let never = |_t: f64, _y: &[f64], dy: &mut [f64]| dy[0] = f64::NAN;
+        let error = integrate(pair, never, &[1.0], 1.0, 0.1, Tolerance::uniform(1e-9));
+        assert_eq!(error, Err(BaselineError::NonFiniteRhs { t: 0.0 }));
+
+        let later = |t: f64, _y: &[f64], dy: &mut [f64]| dy[0] = (0.5 - t).sqrt();
+        match integrate(pair, later, &[1.0], 1.0, 0.1, Tolerance::uniform(1e-9)) {
+            Err(BaselineError::NonFiniteRhs { t }) => assert!((t - 0.5).abs() < 1e-6, "{t}"),
+            other => panic!("{pair}: {other:?}"),
+        }
+
+        let forgets = |_t: f64, y: &[f64], dy: &mut [f64]| dy[0] = y[0];
+        let error = integrate(
+            pair,
+            forgets,
+            &[1.0, 2.0],
+            1.0,
+            0.1,
+            Tolerance::uniform(1e-9),
+        );
+        assert!(matches!(error, Err(BaselineError::NonFiniteRhs { .. })));
+    }
+}
+
+#[test]
+fn a_trial_step_out_of_the_domain_is_only_shortened() {
+    // y = (1 - t/2)², defined for y ≥ 0 only.
+    let rhs = |_t: f64, y: &[f64], dy: &mut [f64]| dy[0] = -y[0].sqrt();
+    for pair in PAIRS {
+        let run = integrate(pair, rhs, &[1.0], 1.99, 0.1, Tolerance::uniform(1e-10)).unwrap();
+        let error = worst(&run, |t| vec![(1.0 - t / 2.0).powi(2)]);
+        assert!(error < 1e-8, "{pair}: {error:e}");
+    }
+}
+
+#[test]
+fn a_solution_that_ends_is_an_error_there() {
+    for pair in PAIRS {
+        let square = |_t: f64, y: &[f64], dy: &mut [f64]| dy[0] = y[0] * y[0];
+        match integrate(pair, square, &[1.0], 2.0, 0.1, Tolerance::uniform(1e-9)) {
+            Err(
+                BaselineError::StepUnderflow { t }
+                | BaselineError::NonFiniteRhs { t }
+                | BaselineError::NonFiniteState { t },
+            ) => assert!((t - 1.0).abs() < 1e-6, "{t}"),
+            other => panic!("{pair}: {other:?}"),
+        }
+        let grow = |_t: f64, y: &[f64], dy: &mut [f64]| dy[0] = y[0];
+        let error = integrate(pair, grow, &[1.0], 1000.0, 1.0, Tolerance::uniform(1e-6));
+        match error {
+            Err(
+                BaselineError::NonFiniteState { t }
+                | BaselineError::NonFiniteRhs { t }
+                | BaselineError::StepUnderflow { t },
+            ) => {
+                assert!(t > 600.0, "{t}");
+            }
+            other => panic!("{pair}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn pairs_have_names() {
+    assert_eq!(Pair::DormandPrince54.to_string(), "Dormand–Prince 5(4)");
+    assert_eq!(Pair::DormandPrince853.to_string(), "Dormand–Prince 8(5,3)");
+}
