@@ -1,1 +1,5 @@
-//! Work in progress.
+//! Lie group variational integrators.
+
+pub use articulated_fluid;
+pub use dvi;
+pub use lie;

@@ -8,3 +8,4 @@
 
 pub mod baseline;
 pub mod figure;
+pub mod raw;

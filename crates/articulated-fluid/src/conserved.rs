@@ -1,0 +1,74 @@
+//! What the motion keeps, and where the joints are.
+
+use dvi::{ContinuousSystem, State};
+use lie::{LieGroup, SO3, Vec3};
+
+use crate::{ArticulatedBody, Configuration, ModelError};
+
+/// Energy and the momentum maps of a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conserved {
+    /// Total kinetic energy of bodies and fluid, J.
+    pub energy: f64,
+    /// Total linear momentum $p_x$, kg m/s, reference frame.
+    pub linear: Vec3,
+    /// Total angular momentum about the origin, $x \times p_x + \sum_i R_i p_i$, kg m²/s, reference frame.
+    pub angular: Vec3,
+}
+
+impl ArticulatedBody {
+    /// The velocity $\xi = (\Omega_0, \dot x, \Omega_1, \dots)$ of a state, the inverse of (10).
+    ///
+    /// # Errors
+    /// [`ModelError::Shape`] where the state has another number of tails.
+    pub fn velocity(
+        &self,
+        state: &State<Configuration>,
+    ) -> Result<<Configuration as LieGroup>::Algebra, ModelError> {
+        let (expected, found) = (self.tails(), state.g.2.len());
+        if found != expected || state.mu.2.len() != expected {
+            return Err(ModelError::Shape {
+                expected,
+                found: found.max(state.mu.2.len()),
+            });
+        }
+        let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
+        let mut workspace = ContinuousSystem::workspace::<f64>(self);
+        self.velocity_and_force::<f64>(&state.g, &state.mu, &mut workspace, &mut xi, &mut tau);
+        Ok(xi)
+    }
+
+    /// The conserved quantities of a state.
+    ///
+    /// # Errors
+    /// As [`velocity`](Self::velocity).
+    pub fn conserved(&self, state: &State<Configuration>) -> Result<Conserved, ModelError> {
+        let xi = self.velocity(state)?;
+        let ((r0, x, r), (p0, px, p)) = (&state.g, &state.mu);
+        let attitudes = core::iter::once(r0).chain(r.iter());
+        let momenta = core::iter::once(p0).chain(p.iter());
+        let spins = attitudes
+            .zip(momenta)
+            .map(|(r, p): (&SO3, _)| r.rotate(p.vec3()));
+        let orbital = x.vec3().cross(px.vec3());
+        Ok(Conserved {
+            energy: 0.5 * Configuration::pair(&state.mu, &xi),
+            linear: px.vec3(),
+            angular: spins.fold(orbital, |sum, spin| sum + spin),
+        })
+    }
+
+    /// Where the joints are, in the reference frame: $x + R_0 d_{0i}$, m.
+    pub fn joint_positions(&self, g: &Configuration) -> impl Iterator<Item = Vec3> {
+        let (r0, x) = (g.0, g.1.vec3());
+        self.joints()
+            .map(move |joint| x + r0.rotate(joint.at_parent))
+    }
+
+    /// Where the mass centres are, in the reference frame: $x$, then $x + R_0 d_{0i} - R_i d_{i0}$, m.
+    pub fn centre_positions(&self, g: &Configuration) -> impl Iterator<Item = Vec3> {
+        let centres = self.joint_positions(g).zip(self.joints()).zip(g.2.iter());
+        let tails = centres.map(|((at, joint), r)| at - r.rotate(joint.at_child));
+        core::iter::once(g.1.vec3()).chain(tails)
+    }
+}

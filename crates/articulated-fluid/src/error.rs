@@ -1,0 +1,54 @@
+//! What can be wrong with a model's parameters.
+
+use thiserror::Error;
+
+/// Why a model was refused.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// There is no body.
+    #[error("a model has at least one body; give the head")]
+    NoBody,
+    /// A matrix of a body is not symmetric and positive definite, or not finite.
+    #[error(
+        "the {matrix} of body {body} is not symmetric and positive definite; expected the body's plus the added one, in the body's frame"
+    )]
+    NotPositiveDefinite {
+        /// Index of the body.
+        body: usize,
+        /// Which matrix.
+        matrix: &'static str,
+    },
+    /// The joints do not hang every body but the first on the first.
+    #[error(
+        "body {body} hangs on {count} joints; expected one joint from body 0 to each other body (a tail on a tail is not supported)"
+    )]
+    Joints {
+        /// Index of the body.
+        body: usize,
+        /// Joints that lead to it from body 0.
+        count: usize,
+    },
+    /// A joint names a body that is not there, hangs on another body than the first, or lies at no finite point.
+    #[error(
+        "joint {joint} from body {parent} to body {child} is not possible: expected parent 0, a child between 1 and {last}, and finite points"
+    )]
+    Joint {
+        /// Index of the joint.
+        joint: usize,
+        /// Its parent.
+        parent: usize,
+        /// Its child.
+        child: usize,
+        /// Index of the last body.
+        last: usize,
+    },
+    /// The state has another number of tails than the model.
+    #[error("the state has {found} tails, the model {expected}")]
+    Shape {
+        /// Tails of the model.
+        expected: usize,
+        /// Tails of the state.
+        found: usize,
+    },
+}

@@ -1,0 +1,31 @@
+//! What can be wrong with a scene file.
+
+use thiserror::Error;
+
+/// Why a file is no scene; displayed like a compiler's message.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The file cannot be read, or is not UTF-8.
+    #[error("{file}: cannot be read: {source}")]
+    Io {
+        /// The file's name.
+        file: String,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+    /// The text is no TOML, or no valid scene.
+    #[error("{file}:{line}:{column}: {key}: {message}")]
+    Invalid {
+        /// The file's name.
+        file: String,
+        /// Line of the key, from 1; of the table's header if the key is missing.
+        line: usize,
+        /// Column of the key in characters, from 1.
+        column: usize,
+        /// The key as a dotted path such as `body.semi_axes`.
+        key: String,
+        /// What is wrong and what is expected.
+        message: String,
+    },
+}

@@ -1,0 +1,169 @@
+//! The keys of a scene file: the one place that documents them.
+
+/// The documentation of one key of a scene file.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[non_exhaustive]
+pub struct Key {
+    /// Dotted path: `fluid.density`; a table has an entry of its own.
+    pub path: &'static str,
+    /// What value is expected, with its unit.
+    pub value: &'static str,
+    /// What holds without the key.
+    pub default: &'static str,
+    /// What the value means.
+    pub meaning: &'static str,
+}
+
+const fn key(
+    path: &'static str,
+    value: &'static str,
+    default: &'static str,
+    meaning: &'static str,
+) -> Key {
+    Key {
+        path,
+        value,
+        default,
+        meaning,
+    }
+}
+
+const REQUIRED: &str = "required";
+
+/// Every key that a scene file may have, in the order of the schema.
+pub const KEYS: &[Key] = &[
+    key("title", "a string", "none", "what the scene shows"),
+    key("fluid", "one table [fluid]", REQUIRED, "the perfect fluid"),
+    key(
+        "fluid.density",
+        "a finite number >= 0, in kg/m^3",
+        REQUIRED,
+        "density of the fluid; 0 is a vacuum",
+    ),
+    key(
+        "start",
+        "one table [start]",
+        "at rest at the origin",
+        "initial state of the first body's mass centre",
+    ),
+    key(
+        "start.position",
+        "an array of 3 finite numbers, in m",
+        "zero",
+        "position in the reference frame",
+    ),
+    key(
+        "start.velocity",
+        "an array of 3 finite numbers, in m/s",
+        "zero",
+        "velocity in the reference frame",
+    ),
+    key(
+        "body",
+        "one table [[body]] for each body",
+        "at least one is required",
+        "a rigid body; the first is the head, on which the others hang",
+    ),
+    key(
+        "body.name",
+        "a unique name of letters a-z A-Z, digits, - and _",
+        REQUIRED,
+        "name of the body in joints and in results",
+    ),
+    key(
+        "body.semi_axes",
+        "an array of 3 finite numbers > 0, in m",
+        "total_mass and total_inertia",
+        "semi-axes along the body's x, y, z of a uniform ellipsoid; \
+         its added mass and inertia follow",
+    ),
+    key(
+        "body.mass",
+        "a finite number > 0, in kg",
+        "neutral buoyancy: fluid density times volume",
+        "mass of the body alone, with semi_axes",
+    ),
+    key(
+        "body.total_mass",
+        "an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
+         (symmetric, positive definite), in kg",
+        "from semi_axes and mass",
+        "mass of the body plus added mass, in the body's frame",
+    ),
+    key(
+        "body.total_inertia",
+        "an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
+         (symmetric, positive definite), in kg m^2",
+        "from semi_axes and mass",
+        "inertia of the body plus added inertia about the mass centre, in the body's frame",
+    ),
+    key(
+        "body.attitude",
+        "an array of 4 numbers w, x, y, z: a quaternion of length 1 (to 1e-6)",
+        "[1, 0, 0, 0], the identity",
+        "initial attitude, body to reference frame",
+    ),
+    key(
+        "body.angular_velocity",
+        "an array of 3 finite numbers, in rad/s",
+        "zero",
+        "initial angular velocity in the body's frame",
+    ),
+    key(
+        "joint",
+        "one table [[joint]] for each body but the first",
+        "none, for a body alone",
+        "a ball joint",
+    ),
+    key(
+        "joint.parent",
+        "the name of the first body",
+        REQUIRED,
+        "the body on which the child hangs",
+    ),
+    key(
+        "joint.child",
+        "the name of a body other than the first",
+        REQUIRED,
+        "the body that hangs on the parent; each is the child of one joint",
+    ),
+    key(
+        "joint.at_parent",
+        "an array of 3 finite numbers, in m",
+        REQUIRED,
+        "the joint from the parent's mass centre, in the parent's frame",
+    ),
+    key(
+        "joint.at_child",
+        "an array of 3 finite numbers, in m",
+        REQUIRED,
+        "the joint from the child's mass centre, in the child's frame",
+    ),
+];
+
+/// [`KEYS`] as text to show to users.
+///
+/// ```
+/// use articulated_fluid::scene::reference;
+///
+/// assert!(reference().contains("fluid.density: a finite number >= 0, in kg/m^3"));
+/// ```
+pub fn reference() -> String {
+    let entry = |key: &Key| {
+        let Key {
+            path,
+            value,
+            default,
+            meaning,
+        } = key;
+        format!("{path}: {value}\n    {meaning}\n    default: {default}\n")
+    };
+    KEYS.iter().map(entry).collect()
+}
+
+/// What is expected as the value of the key at `path`.
+pub(super) fn expected(path: &str) -> Option<&'static str> {
+    KEYS.iter()
+        .find(|key| key.path == path)
+        .map(|key| key.value)
+}

@@ -1,0 +1,156 @@
+//! Scenes: bodies, joints, fluid and initial state as a TOML file.
+//!
+//! ```toml
+#![doc = include_str!("example.toml")]
+//! ```
+//!
+//! [`KEYS`] documents each key with its unit and default; [`reference()`] prints them. Whatever is
+//! wrong in a file is reported as `FILE:LINE:COLUMN: KEY: what is wrong; expected ...`, where the
+//! line is that of the key. Unknown keys are errors.
+//!
+//! The bodies form a star: the first body is the head, and every other one hangs on the head by
+//! exactly one ball joint.
+
+mod bodies;
+mod error;
+mod joints;
+mod keys;
+mod raw;
+mod source;
+mod values;
+
+use std::path::Path;
+
+pub use error::SceneError;
+pub use keys::{KEYS, Key, reference};
+
+use raw::{RawScene, RawStart};
+use source::Source;
+
+/// A scene file with every key, as shown in the documentation of this module.
+pub const EXAMPLE: &str = include_str!("example.toml");
+
+/// A scene that has been checked: every number is finite and every joint leads to a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// What the scene shows, for people.
+    pub title: Option<String>,
+    /// Density $\rho \ge 0$ of the fluid, kg/m³; 0 is a vacuum.
+    pub density: f64,
+    /// The bodies, at least one; the first is the head.
+    pub bodies: Vec<SceneBody>,
+    /// The joints: one for each body but the head, which is the parent of each.
+    pub joints: Vec<SceneJoint>,
+    /// Initial position of the head's mass centre in the reference frame, m.
+    pub position: [f64; 3],
+    /// Initial velocity of the head's mass centre in the reference frame, m/s.
+    pub velocity: [f64; 3],
+}
+
+/// A rigid body of a [`Scene`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneBody {
+    /// Name: unique in the scene, made of ASCII letters, digits, `-` and `_`.
+    pub name: String,
+    /// Semi-axes along the body's $x, y, z$, m, if the body was given by them.
+    pub semi_axes: Option<[f64; 3]>,
+    /// Mass of the body plus added mass in the body frame, kg: symmetric, positive definite.
+    pub total_mass: [[f64; 3]; 3],
+    /// Inertia of the body plus added inertia about its mass centre in the body frame, kg m²:
+    /// symmetric, positive definite.
+    pub total_inertia: [[f64; 3]; 3],
+    /// Initial attitude, body to reference frame: a quaternion $w, x, y, z$ of length 1.
+    pub attitude: [f64; 4],
+    /// Initial angular velocity in the body frame, rad/s.
+    pub angular_velocity: [f64; 3],
+}
+
+/// A ball joint of a [`Scene`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneJoint {
+    /// Index of the parent in [`Scene::bodies`]; 0 in this version.
+    pub parent: usize,
+    /// Index of the child in [`Scene::bodies`].
+    pub child: usize,
+    /// The joint from the parent's mass centre, in the parent's frame, m.
+    pub at_parent: [f64; 3],
+    /// The joint from the child's mass centre, in the child's frame, m.
+    pub at_child: [f64; 3],
+}
+
+impl Scene {
+    /// Reads the scene in `text`; `file` only names it in error messages.
+    ///
+    /// ```
+    /// use articulated_fluid::scene::Scene;
+    ///
+    /// let text = "
+    ///     [fluid]
+    ///     density = 1000
+    ///     [[body]]
+    ///     name = 'hull'
+    ///     semi_axes = [2, 0, 0.5]
+    /// ";
+    /// let error = Scene::parse(text, "boat.toml").unwrap_err();
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "boat.toml:6:5: body.semi_axes: the semi-axis along y is 0.0; \
+    ///      expected a finite number > 0, in m"
+    /// );
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Invalid`] for the first thing wrong: TOML syntax, an unknown or missing key,
+    /// a value of the wrong type or size, not finite or out of range, a joint to no body.
+    pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
+        let source = Source::new(text, file)?;
+        let raw: RawScene = source.read()?;
+        let density = density(&raw, &source)?;
+        let (names, bodies) = bodies::check(&raw.body, density, &source)?;
+        let joints = joints::check(&raw.joint, &names, &source)?;
+        let (position, velocity) = start(raw.start.as_ref().map(|s| &s.get_ref().0), &source)?;
+        Ok(Self {
+            title: raw.title,
+            density,
+            bodies,
+            joints,
+            position,
+            velocity,
+        })
+    }
+
+    /// Reads the scene in the file `path`.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Io`] if the file cannot be read as UTF-8 text, else as [`Scene::parse`].
+    pub fn load(path: &Path) -> Result<Self, SceneError> {
+        let file = path.display().to_string();
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::parse(&text, &file),
+            Err(source) => Err(SceneError::Io { file, source }),
+        }
+    }
+}
+
+fn density(raw: &RawScene, source: &Source) -> Result<f64, SceneError> {
+    let fluid = raw.fluid.as_ref().ok_or_else(|| source.absent("fluid"))?;
+    let density = source.require(fluid, "density", &fluid.get_ref().0.density)?;
+    let value = *density.get_ref();
+    if value.is_finite() && value >= 0.0 {
+        Ok(value)
+    } else {
+        Err(source.wrong(density.span(), &format!("is {value:?}")))
+    }
+}
+
+fn start(raw: Option<&RawStart>, source: &Source) -> Result<([f64; 3], [f64; 3]), SceneError> {
+    match raw {
+        None => Ok(([0.0; 3], [0.0; 3])),
+        Some(start) => Ok((
+            values::triple_or_zero(start.position.as_ref(), source)?,
+            values::triple_or_zero(start.velocity.as_ref(), source)?,
+        )),
+    }
+}

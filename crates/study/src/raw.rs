@@ -1,0 +1,85 @@
+//! The continuous model as explicit methods see it: a vector of raw matrix entries, which nothing keeps orthogonal.
+//!
+//! Layout: $R_0$ row by row, $x$, $R_1, \dots, R_n$, then $p_0, p_x, p_1, \dots, p_n$.
+
+use articulated_fluid::{ArticulatedBody, Configuration};
+use dvi::{ContinuousSystem, State};
+use lie::{LieGroup, Mat3, Rn, SO3, Tangent, VectorSpace};
+
+/// The state as a vector; `t` is left out.
+pub fn pack(state: &State<Configuration>) -> Vec<f64> {
+    let (r0, x, r) = &state.g;
+    let entries = |r: &SO3| r.matrix().0.as_flattened().to_vec();
+    let mut y = entries(r0);
+    y.extend(x.0);
+    y.extend(r.iter().flat_map(entries));
+    y.extend(state.mu.to_vec());
+    y
+}
+
+/// The inverse of [`pack`], with the matrices as they are; `None` where the length fits no number of tails.
+pub fn unpack(t: f64, y: &[f64]) -> Option<State<Configuration>> {
+    let tails = y.len().checked_sub(18)? / 12;
+    if y.len() != 18 + 12 * tails {
+        return None;
+    }
+    let zero = SO3::from_matrix_unchecked(Mat3::zero());
+    let g = (zero, Rn([0.0; 3]), vec![zero; tails].into_iter().collect());
+    let mut state = State {
+        t,
+        mu: LieGroup::zero_dual(&g),
+        g,
+    };
+    fill(&mut state, y);
+    Some(state)
+}
+
+fn fill(state: &mut State<Configuration>, y: &[f64]) {
+    let (r0, rest) = y.split_at(9);
+    let (x, rest) = rest.split_at(3);
+    let (r, mu) = rest.split_at(9 * state.g.2.len());
+    state.g.0 = rotation(r0);
+    state.g.1.0.copy_from_slice(x);
+    for (out, r) in state.g.2.iter_mut().zip(r.chunks_exact(9)) {
+        *out = rotation(r);
+    }
+    state.mu.read(mu);
+}
+
+fn rotation(entries: &[f64]) -> SO3 {
+    let row = |i: usize| [0, 1, 2].map(|j| entries[3 * i + j]);
+    SO3::from_matrix_unchecked(Mat3([row(0), row(1), row(2)]))
+}
+
+/// Hamilton's equations (18)–(20) with $\dot R_i = R_i \hat\Omega_i$, (15), on raw entries.
+///
+/// The closure takes `t`, the vector and where to put its derivative, both as long as [`pack`] makes them.
+pub fn right_hand_side(
+    model: &ArticulatedBody,
+    start: &State<Configuration>,
+) -> impl FnMut(f64, &[f64], &mut [f64]) {
+    let model = model.clone();
+    let mut state = start.clone();
+    let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
+    let mut workspace = ContinuousSystem::workspace::<f64>(&model);
+    move |_, y, dy| {
+        fill(&mut state, y);
+        let (g, mu) = (&state.g, &state.mu);
+        model.velocity_and_force::<f64>(g, mu, &mut workspace, &mut xi, &mut tau);
+        tau.add_scaled(1.0, &Configuration::coadjoint_bracket(&xi, mu));
+        let (d_r0, rest) = dy.split_at_mut(9);
+        let (d_x, rest) = rest.split_at_mut(3);
+        let (d_r, d_mu) = rest.split_at_mut(9 * state.g.2.len());
+        derivative(&g.0, &xi.0, d_r0);
+        d_x.copy_from_slice(&xi.1.0);
+        for ((r, omega), d_r) in g.2.iter().zip(xi.2.iter()).zip(d_r.chunks_exact_mut(9)) {
+            derivative(r, omega, d_r);
+        }
+        tau.write(d_mu);
+    }
+}
+
+fn derivative(r: &SO3, omega: &Tangent<3>, out: &mut [f64]) {
+    let rate = *r.matrix() * omega.vec3().hat();
+    out.copy_from_slice(rate.0.as_flattened());
+}
