@@ -45,10 +45,9 @@ impl<G: RealGroup, S: Scalar> Balance<G, S> {
         h: S,
     ) {
         lagrangian.derivatives(g, &self.f, h, &mut self.derivatives);
-        self.momentum.clone_from(mu);
-        self.momentum.add_scaled(S::one(), &self.derivatives.d_g);
+        self.momentum.set_sum(mu, S::one(), &self.derivatives.d_g);
         self.f.coadjoint_into(&self.momentum, &mut self.transported);
-        self.residual.clone_from(&self.derivatives.d_f);
-        self.residual.add_scaled(-S::one(), &self.transported);
+        self.residual
+            .set_sum(&self.derivatives.d_f, -S::one(), &self.transported);
     }
 }

@@ -34,6 +34,6 @@ pub trait Integrator {
 pub struct StepReport {
     /// Evaluations of the step's equation.
     pub iterations: u32,
-    /// Largest component of the equation's residual, relative to the momentum's size.
+    /// Norm of the equation's residual, relative to the momentum's.
     pub residual: f64,
 }

@@ -169,7 +169,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, Work
         if !(h.is_finite() && h != 0.0) {
             return Err(StepError::InvalidStep { step, t, h });
         }
-        if !state.mu.max_magnitude().is_finite() {
+        if !state.mu.norm_squared().is_finite() {
             return Err(StepError::NotFinite { step, t, h });
         }
         let dim = state.mu.dim();
@@ -240,11 +240,21 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         h: f64,
         tolerance: f64,
     ) -> Solved {
-        let (mut best, mut last) = (f64::INFINITY, f64::INFINITY);
+        let (mut best, mut last, mut scale) = (f64::INFINITY, f64::INFINITY, 0.0);
         for iterations in 1..=MAX_ITERATIONS {
             let residual = self.evaluate::<R>(lagrangian, state, h);
+            if iterations == 1 {
+                scale = self.scale(state);
+            }
+            // A system at rest has no scale, and no residual either.
+            let residual = if residual == 0.0 {
+                0.0
+            } else {
+                residual / scale
+            };
             if residual <= tolerance {
-                let (residual, more) = self.finish_cyclic::<R>(lagrangian, state, h, residual);
+                let (residual, more) =
+                    self.finish_cyclic::<R>(lagrangian, state, h, scale, residual);
                 let report = StepReport {
                     iterations: iterations + more,
                     residual,
@@ -283,24 +293,23 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         }
     }
 
-    /// Evaluates the balance at `c`; its largest component relative to the momentum's size.
+    /// Evaluates the balance at `c`; the residual's norm.
     #[inline(always)]
     fn evaluate<R: Retraction>(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) -> f64 {
         self.balance.retract::<R>(&self.c);
         self.solver
             .eliminate(lagrangian, &state.mu, h, &mut self.balance.f);
         self.balance.evaluate(lagrangian, &state.g, &state.mu, h);
-        let residual = self.balance.residual.max_magnitude();
-        let scale = state
-            .mu
-            .max_magnitude()
-            .max(self.balance.transported.max_magnitude());
-        // A body at rest has no scale, and no residual either.
-        if residual == 0.0 {
-            0.0
-        } else {
-            residual / scale
-        }
+        self.balance.residual.norm_squared().sqrt()
+    }
+
+    /// The size of the momenta that balance: the scale of the residual.
+    fn scale(&self, state: &State<L::Group>) -> f64 {
+        let (before, after) = (
+            state.mu.norm_squared(),
+            self.balance.transported.norm_squared(),
+        );
+        before.max(after).sqrt()
     }
 
     /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance.
@@ -309,6 +318,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         lagrangian: &L,
         state: &State<L::Group>,
         h: f64,
+        scale: f64,
         residual: f64,
     ) -> (f64, u32) {
         let cyclic = lagrangian.cyclic();
@@ -324,7 +334,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 return (residual, more);
             }
             self.c.add_scaled(-1.0, &self.delta);
-            residual = self.evaluate::<R>(lagrangian, state, h);
+            residual = self.evaluate::<R>(lagrangian, state, h) / scale;
         }
         (residual, CYCLIC_ITERATIONS)
     }
@@ -357,7 +367,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator
             work.next.normalize();
         }
         core::mem::swap(&mut state.g, &mut work.next);
-        state.mu.clone_from(&work.balance.transported);
+        core::mem::swap(&mut state.mu, &mut work.balance.transported);
         state.t += h;
         self.steps += 1;
         Ok(report)

@@ -2,15 +2,20 @@
 
 /// Highest degree of the extrapolating polynomial.
 const DEGREE: usize = 4;
+/// Steps between choices of the degree: comparing costs as much as extrapolating.
+const CHOOSE_EVERY: u32 = 16;
 
 /// The backward differences $\nabla^0 c, \dots, \nabla^{d+1} c$ of the solutions at equal steps.
 ///
 /// Extrapolating by degree $d$ is summing the first $d + 1$ of them, and $\nabla^{d+1} c$ is the error that this
-/// made in the last step; the degree with the smallest error then is used next.
+/// made in the last step; now and then, the degree whose error is smallest is taken for the steps to come.
 pub(crate) struct WarmStart {
     differences: [Vec<f64>; DEGREE + 2],
     /// Differences that are known.
     known: usize,
+    /// Differences that are summed.
+    terms: usize,
+    recorded: u32,
     h: f64,
 }
 
@@ -19,12 +24,14 @@ impl WarmStart {
         Self {
             differences: core::array::from_fn(|_| vec![0.0; dim]),
             known: 0,
+            terms: 0,
+            recorded: 0,
             h: 0.0,
         }
     }
 
     pub(crate) fn forget(&mut self) {
-        self.known = 0;
+        (self.known, self.terms, self.recorded) = (0, 0, 0);
     }
 
     /// Writes the guess for a step of size `h`; false, and zero, where nothing is known.
@@ -33,14 +40,13 @@ impl WarmStart {
             self.forget();
         }
         out.fill(0.0);
-        let terms = self.terms();
-        for difference in &self.differences[..terms] {
+        for difference in &self.differences[..self.terms] {
             add(out, difference);
         }
-        terms > 0
+        self.terms > 0
     }
 
-    fn terms(&self) -> usize {
+    fn best(&self) -> usize {
         let error = |terms: &usize| size(&self.differences[*terms]);
         // With one solution known there is no error to compare by: repeat it.
         let candidates = 1..self.known.max(2);
@@ -50,7 +56,8 @@ impl WarmStart {
 
     pub(crate) fn record(&mut self, h: f64, solution: &[f64]) {
         if h != self.h {
-            (self.h, self.known) = (h, 0);
+            self.h = h;
+            self.forget();
         }
         let last = DEGREE + 1;
         self.differences.rotate_right(1);
@@ -63,6 +70,10 @@ impl WarmStart {
             }
         }
         self.known = (self.known + 1).min(last + 1);
+        if self.recorded < CHOOSE_EVERY || self.recorded.is_multiple_of(CHOOSE_EVERY) {
+            self.terms = self.best();
+        }
+        self.recorded = self.recorded.wrapping_add(1);
     }
 }
 

@@ -88,6 +88,14 @@ macro_rules! tuple {
                 $(self.$i.add_scaled(a, &y.$i);)+
             }
             #[inline(always)]
+            fn set_sum(&mut self, x: &Self, a: S, y: &Self) {
+                $(self.$i.set_sum(&x.$i, a, &y.$i);)+
+            }
+            #[inline(always)]
+            fn norm_squared(&self) -> f64 {
+                0.0 $(+ self.$i.norm_squared())+
+            }
+            #[inline(always)]
             fn max_magnitude(&self) -> f64 {
                 [$(self.$i.max_magnitude()),+]
                     .into_iter()
@@ -263,6 +271,16 @@ macro_rules! repeated {
             #[inline(always)]
             fn add_scaled(&mut self, a: $G::Scalar, y: &Self) {
                 self.iter_mut().zip(y.iter()).for_each(|(x, y)| x.add_scaled(a, y));
+            }
+            #[inline(always)]
+            fn set_sum(&mut self, x: &Self, a: $G::Scalar, y: &Self) {
+                for ((out, x), y) in self.iter_mut().zip(x.iter()).zip(y.iter()) {
+                    out.set_sum(x, a, y);
+                }
+            }
+            #[inline(always)]
+            fn norm_squared(&self) -> f64 {
+                self.iter().map(VectorSpace::norm_squared).sum()
             }
             #[inline(always)]
             fn max_magnitude(&self) -> f64 {

@@ -55,6 +55,21 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
         }
     }
 
+    /// Sets this vector to $x + a\,y$, in place.
+    #[inline(always)]
+    fn set_sum(&mut self, x: &Self, a: Self::Scalar, y: &Self) {
+        for i in 0..self.dim() {
+            self.set(i, x.get(i) + a * y.get(i));
+        }
+    }
+
+    /// The Euclidean norm of the coordinates, squared, by the real parts.
+    #[inline(always)]
+    fn norm_squared(&self) -> f64 {
+        let squares = (0..self.dim()).map(|i| self.get(i).magnitude());
+        squares.fold(0.0, |sum, x| sum + x * x)
+    }
+
     /// The largest magnitude of the coordinates, NaN where any is NaN.
     #[inline(always)]
     fn max_magnitude(&self) -> f64 {

@@ -1,0 +1,121 @@
+//! The kinetic energy (6), its inertia (4), the Legendre transform (10) and the forces (11)–(13).
+
+mod common;
+
+use articulated_fluid::{ArticulatedBody, Configuration};
+use common::*;
+use dvi::{Inertia, Lagrangian};
+use lie::{Jet, LieGroup, RealGroup, Scalar, VectorSpace};
+use proptest::prelude::*;
+
+/// The Lagrangian by its value alone: the rest by dual numbers.
+struct ByValue<'a>(&'a ArticulatedBody);
+
+impl Lagrangian for ByValue<'_> {
+    type Group = Configuration;
+    fn value<S: Scalar>(&self, g: &Configuration<S>, xi: &Velocity<S>) -> S {
+        self.0.value(g, xi)
+    }
+}
+
+/// $\mathsf T_e^* \mathsf L_g \cdot \mathbf D_g L$ by dual numbers.
+fn force_by_jets(sample: &Sample) -> Vec<f64> {
+    let Sample { model, g, xi, .. } = sample;
+    let still = along(&g.lift::<J>().zero_algebra(), xi, &xi.zero_like());
+    let direction = |i: usize| Lagrangian::value::<J>(model, &moved(g, i), &still).partial(0);
+    (0..xi.dim()).map(direction).collect()
+}
+
+proptest! {
+    #[test]
+    fn the_printed_inertia_is_the_hessian_of_the_energy(sample in three_bodies()) {
+        let Sample { model, g, xi, .. } = &sample;
+        let printed = Paper::new(&sample).inertia(matrices(g));
+        // Rounding of sums of a few terms up to 1e2.
+        let hessian = hessian(model, g, xi);
+        assert_close(&printed.concat(), &hessian.concat(), 1e-13);
+        let momentum = Lagrangian::legendre(model, g, xi).to_vec();
+        assert_close(&momentum, &product(&printed, &xi.to_vec()), 1e-13);
+        // (7): the energy is its quadratic form.
+        let energy = Lagrangian::value::<f64>(model, g, xi);
+        let half: f64 = momentum.iter().zip(xi.to_vec()).map(|(p, x)| 0.5 * p * x).sum();
+        assert_close(&[energy], &[half], 1e-13);
+    }
+
+    #[test]
+    fn the_legendre_transform_is_the_derivative_by_dual_numbers(sample in any_sample()) {
+        let Sample { model, g, xi, .. } = &sample;
+        let closed = Lagrangian::legendre(model, g, xi).to_vec();
+        // Rounding of sums up to 1e2.
+        assert_close(&closed, &ByValue(model).legendre(g, xi).to_vec(), 1e-13);
+    }
+
+    #[test]
+    fn velocity_and_force_are_those_of_the_lagrangian(sample in any_sample()) {
+        let Sample { model, g, xi, .. } = &sample;
+        let (velocity, force) = velocity_and_force::<f64>(model, g, &sample.mu());
+        // Rounding times the condition of the inertia, up to a few hundred.
+        assert_close(&velocity.to_vec(), &xi.to_vec(), 1e-12);
+        assert_close(&force.to_vec(), &force_by_jets(&sample), 1e-11);
+    }
+
+    #[test]
+    fn velocity_and_force_hold_over_dual_numbers(sample in any_sample(), first in 0..18_usize) {
+        let Sample { model, g, xi, .. } = &sample;
+        // Along a path of the configuration at constant velocity, the momentum's path gives the velocity back.
+        let g = moved(g, first);
+        let still = along(&g.zero_algebra(), xi, &xi.zero_like());
+        let basis = |i: usize| {
+            let mut e = xi.zero_like();
+            e.set(i, 1.0);
+            along(&g.zero_algebra(), &e, &e.zero_like())
+        };
+        let mut mu = g.zero_dual();
+        for i in 0..xi.dim() {
+            let value = |xi: &Velocity<J>| Lagrangian::value::<J>(model, &g, xi);
+            // A quadratic form's derivative, without error: L(xi + e) - L(xi) - L(e).
+            let mut sum = still.clone();
+            sum.add_scaled(J::constant(1.0), &basis(i));
+            mu.set(i, value(&sum) - value(&still) - value(&basis(i)));
+        }
+        let (velocity, _) = velocity_and_force::<J>(model, &g, &mu);
+        for (i, x) in velocity.to_vec().into_iter().enumerate() {
+            // As above, the condition squared.
+            assert_close(&[x.value()], &[xi.get(i)], 1e-11);
+            let slopes: Vec<f64> = (0..lie::JET_DIRECTIONS).map(|d| x.partial(d)).collect();
+            assert_close(&slopes, &[0.0; lie::JET_DIRECTIONS], 1e-10);
+        }
+    }
+
+    #[test]
+    fn the_reduced_solve_is_the_dense_one(sample in any_sample()) {
+        let Sample { model, g, xi, .. } = &sample;
+        let mu = sample.mu();
+        let dense = solve(&hessian(model, g, xi), &mu.to_vec());
+        let mut factor = model.factor();
+        let mut reduced = g.zero_algebra();
+        spoil(&mut reduced);
+        model.factorise(&model.aligned(), &mut factor);
+        model.factorise(g, &mut factor);
+        model.solve(&factor, &mu, &mut reduced);
+        // Rounding times the condition, in both.
+        assert_close(&reduced.to_vec(), &dense, 1e-12);
+        if let [one, two] = &g.2[..] {
+            let printed = Paper::new(&sample).inertia([g.0, *one, *two].map(|r| *r.matrix()));
+            assert_close(&reduced.to_vec(), &solve(&printed, &mu.to_vec()), 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_eliminated_displacement_solves_the_linear_momentum(sample in any_sample()) {
+        const H: f64 = 0.1;
+        let Sample { model, g, f, .. } = &sample;
+        let (mut factor, mut f, mu) = (model.factor(), f.clone(), sample.mu());
+        model.factorise(g, &mut factor);
+        f.1.0 = [f64::NAN; 3];
+        model.eliminate(&factor, &mu, H, &mut f);
+        let after = dvi::legendre_plus(model, g, &f, H);
+        // Rounding of masses times lengths up to 1e2, over H.
+        assert_close(&after.1.0, &mu.1.0, 1e-12);
+    }
+}

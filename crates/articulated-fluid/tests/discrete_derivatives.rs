@@ -1,0 +1,132 @@
+//! The derivatives (29)–(33) of the discrete Lagrangian (22) against dual numbers, differences and invariance.
+
+mod common;
+
+use articulated_fluid::{ArticulatedBody, Configuration};
+use common::*;
+use dvi::{Derivatives, DiscreteLagrangian};
+use lie::{JET_DIRECTIONS, Jet, LieGroup, R3, SO3, Scalar, Vec3, VectorSpace};
+use proptest::prelude::*;
+
+const H: f64 = 1e-3;
+
+/// The closed form, into storage filled with what must not survive.
+fn closed<S: Scalar>(
+    model: &ArticulatedBody,
+    g: &Configuration<S>,
+    f: &Configuration<S>,
+    h: S,
+) -> Derivatives<Configuration, S> {
+    let mut out = Derivatives::new(g);
+    spoil(&mut out.d_f);
+    spoil(&mut out.d_g);
+    model.derivatives(g, f, h, &mut out);
+    out
+}
+
+fn by_jets<S: Scalar>(
+    model: &ArticulatedBody,
+    g: &Configuration<S>,
+    f: &Configuration<S>,
+    h: S,
+) -> Derivatives<Configuration, S> {
+    let mut out = Derivatives::new(g);
+    out.by_jets(model, g, f, h);
+    out
+}
+
+/// The numbers that a momentum over the duals is made of: value, then derivatives, of each coordinate.
+fn numbers(mu: &Momentum<J>) -> Vec<f64> {
+    let one =
+        |x: J| core::iter::once(x.value()).chain((0..JET_DIRECTIONS).map(move |d| x.partial(d)));
+    mu.to_vec().into_iter().flat_map(one).collect()
+}
+
+/// The size of what the sums of (29)–(33) are made of, times $h$: the rounding is relative to it.
+fn scale(sample: &Sample) -> f64 {
+    let turns = core::iter::once(&sample.f.0).chain(sample.f.2.iter());
+    let turns = turns.map(|f| f.minus_identity().frobenius());
+    30.0 * turns.fold(sample.f.1.vec3().norm(), f64::max)
+}
+
+proptest! {
+    #[test]
+    fn the_closed_form_is_the_derivative_by_dual_numbers(sample in any_sample()) {
+        let Sample { model, g, f, .. } = &sample;
+        let (closed, jets) = (closed(model, g, f, H), by_jets(model, g, f, H));
+        // d_f is linear and d_g quadratic in a small displacement, and both keep their relative accuracy.
+        let size = scale(&sample);
+        assert_close(&closed.d_f.to_vec(), &jets.d_f.to_vec(), 1e-15 * size / H);
+        assert_close(&closed.d_g.to_vec(), &jets.d_g.to_vec(), 1e-15 * size * size.min(1.0) / H);
+    }
+
+    #[test]
+    fn the_closed_form_is_the_derivative_by_differences(sample in any_sample()) {
+        /// The step of the difference: truncation 1e-10, rounding 1e-16 / 1e-5, both times a size up to 1e3.
+        const STEP: f64 = 1e-5;
+        const TOLERANCE: f64 = 1e-8;
+        let Sample { model, g, f, .. } = &sample;
+        let value = |g: &Configuration, f: &Configuration| DiscreteLagrangian::value(model, g, f, 1.0);
+        let derivatives = closed(model, g, f, 1.0);
+        let dim = derivatives.d_f.dim();
+        let mut differences = [vec![], vec![]];
+        for i in 0..dim {
+            let mut step = g.zero_algebra();
+            let mut moved = |g: &Configuration, size: f64| {
+                step.set(i, size);
+                g.compose(&LieGroup::exp(&step))
+            };
+            let f_side = value(g, &moved(f, STEP)) - value(g, &moved(f, -STEP));
+            let g_side = value(&moved(g, STEP), f) - value(&moved(g, -STEP), f);
+            differences[0].push(f_side / (2.0 * STEP));
+            differences[1].push(g_side / (2.0 * STEP));
+        }
+        assert_close(&derivatives.d_f.to_vec(), &differences[0], TOLERANCE);
+        assert_close(&derivatives.d_g.to_vec(), &differences[1], TOLERANCE);
+    }
+
+    #[test]
+    fn the_closed_form_holds_over_dual_numbers(sample in any_sample(), h in 0.5..2.0_f64) {
+        let Sample { model, g, f, .. } = &sample;
+        let h = J::variable(h, 5);
+        for first in (0..g.zero_dual().dim()).step_by(JET_DIRECTIONS) {
+            let (g, f) = (moved(g, first), moved(f, first));
+            let (closed, jets) = (closed(model, &g, &f, h), by_jets(model, &g, &f, h));
+            // Rounding of second derivatives of a size up to 1e3.
+            assert_close(&numbers(&closed.d_f), &numbers(&jets.d_f), 1e-12);
+            assert_close(&numbers(&closed.d_g), &numbers(&jets.d_g), 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_position_enters_nowhere(sample in any_sample(), x in vector(1e6)) {
+        let Sample { model, g, f, .. } = &sample;
+        let elsewhere = (g.0, R3::from(x), g.2.clone());
+        let (here, there) = (closed(model, g, f, H), closed(model, &elsewhere, f, H));
+        prop_assert_eq!(here.d_f, there.d_f);
+        prop_assert_eq!(&here.d_g, &there.d_g);
+        prop_assert_eq!(here.d_g.1.vec3(), Vec3::zero());
+        let value = |g| DiscreteLagrangian::value(model, g, f, H);
+        prop_assert_eq!(value(g), value(&elsewhere));
+        prop_assert_eq!(model.cyclic(), 3..6);
+    }
+
+    #[test]
+    fn a_rotation_of_the_whole_system_changes_nothing(sample in any_sample(), q in attitude()) {
+        let Sample { model, g, f, .. } = &sample;
+        let whole = |r: &SO3| q.compose(r);
+        let rotated = (whole(&g.0), R3::from(q.rotate(g.1.vec3())), g.2.iter().map(whole).collect());
+        let carried = (f.0, R3::from(q.rotate(f.1.vec3())), f.2.clone());
+        let before = DiscreteLagrangian::value(model, g, f, H);
+        let after = DiscreteLagrangian::value(model, &rotated, &carried, H);
+        // Rounding of a quadratic form.
+        let size = scale(&sample);
+        assert_close(&[after], &[before], 1e-15 * size * size / H);
+        // Its derivative at the identity: the moments on all attitudes balance that of the displaced momentum.
+        let derivatives = closed(model, g, f, H);
+        let moments = g.2.iter().zip(derivatives.d_g.2.iter()).map(|(r, d)| r.rotate(d.vec3()));
+        let moment = moments.fold(g.0.rotate(derivatives.d_g.0.vec3()), |sum, m| sum + m);
+        let displaced = f.1.vec3().cross(derivatives.d_f.1.vec3());
+        assert_close(&moment.0, &(-displaced).0, 1e-15 * size * size / H);
+    }
+}
