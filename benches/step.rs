@@ -20,7 +20,12 @@ fn paper() -> (ArticulatedBody, State<Configuration>) {
     let scene = Scene::parse(include_str!("../scenes/fish-chain.toml"), "fish-chain.toml");
     let scene = scene.expect("the shipped scene parses");
     let model = scene.model().expect("the shipped scene is a model");
-    (model, scene.initial_state().expect("the shipped scene has a state"))
+    (
+        model,
+        scene
+            .initial_state()
+            .expect("the shipped scene has a state"),
+    )
 }
 
 /// 1000 evaluations of velocity and force, (10)–(13).
@@ -45,7 +50,9 @@ fn step_x1000(bencher: Bencher) {
     let mut integrator = Variational::with_inertia(model);
     bencher.bench_local(|| {
         for _ in 0..BATCH {
-            integrator.step(black_box(&mut state), H).expect("the paper's step is solved");
+            integrator
+                .step(black_box(&mut state), H)
+                .expect("the paper's step is solved");
         }
     });
 }
@@ -57,7 +64,9 @@ fn step_by_duals_x1000(bencher: Bencher) {
     let mut integrator = Variational::new(model);
     bencher.bench_local(|| {
         for _ in 0..BATCH {
-            integrator.step(black_box(&mut state), H).expect("the paper's step is solved");
+            integrator
+                .step(black_box(&mut state), H)
+                .expect("the paper's step is solved");
         }
     });
 }

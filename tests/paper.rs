@@ -1,17 +1,15 @@
 //! The paper's scene against its check vectors and against itself.
 
+mod common;
+
 use approx::assert_abs_diff_eq;
-use articulated_fluid::{ArticulatedBody, Configuration, Scene};
-use dvi::{Integrator, State, Variational};
+use articulated_fluid::Configuration;
+use common::{attitude_error, paper, run};
+use dvi::{State, Variational};
 use lgvi::{articulated_fluid, dvi, lie};
-use lie::{LieGroup, Mat3, SO3, Vec3};
+use lie::{Mat3, Vec3};
 use study::baseline::{self, Pair, Tolerance};
 use study::raw;
-
-fn paper() -> (ArticulatedBody, State<Configuration>) {
-    let scene = Scene::parse(include_str!("../scenes/fish-chain.toml"), "fish-chain.toml").unwrap();
-    (scene.model().unwrap(), scene.initial_state().unwrap())
-}
 
 fn reference(until: f64) -> State<Configuration> {
     let (model, start) = paper();
@@ -27,12 +25,6 @@ fn reference(until: f64) -> State<Configuration> {
     )
     .unwrap();
     raw::unpack(until, samples.y.last().unwrap()).unwrap()
-}
-
-fn attitude_error(a: &State<Configuration>, b: &State<Configuration>) -> f64 {
-    let one = |a: &SO3, b: &SO3| a.inverse().compose(b).log().unwrap().vec3().norm();
-    let tails = a.g.2.iter().zip(b.g.2.iter()).map(|(a, b)| one(a, b));
-    tails.fold(one(&a.g.0, &b.g.0), f64::max)
 }
 
 #[test]
@@ -84,19 +76,12 @@ fn the_continuous_model_meets_the_check_vectors() {
 fn the_method_is_of_order_one() {
     let (model, start) = paper();
     let end = reference(10.0);
-    let error = |steps: u32| {
-        let (mut state, h) = (start.clone(), 10.0 / f64::from(steps));
-        let mut integrator = Variational::with_inertia(model.clone());
-        for _ in 0..steps {
-            integrator.step(&mut state, h).unwrap();
-        }
-        attitude_error(&state, &end)
-    };
+    let integrator = || Variational::with_inertia(model.clone());
+    let error = |steps| attitude_error(&run(integrator(), &start, 10.0, steps), &end);
     let errors = [2_000, 5_000, 10_000].map(error);
     for (error, expected) in errors.iter().zip([5.33e-2, 2.14e-2, 1.07e-2]) {
         assert!((error / expected - 1.0).abs() < 0.03, "{errors:?}");
     }
     let order = (errors[0] / errors[2]).ln() / 5.0_f64.ln();
-    println!("{errors:?} order {order}");
     assert!((order - 1.0).abs() < 0.03, "{errors:?}");
 }

@@ -25,12 +25,11 @@ impl ArticulatedBody {
         &self,
         state: &State<Configuration>,
     ) -> Result<<Configuration as LieGroup>::Algebra, ModelError> {
-        let (expected, found) = (self.tails(), state.g.2.len());
-        if found != expected || state.mu.2.len() != expected {
-            return Err(ModelError::Shape {
-                expected,
-                found: found.max(state.mu.2.len()),
-            });
+        let expected = self.tails();
+        for found in [state.g.2.len(), state.mu.2.len()] {
+            if found != expected {
+                return Err(ModelError::Shape { expected, found });
+            }
         }
         let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
         let mut workspace = ContinuousSystem::workspace::<f64>(self);
@@ -58,14 +57,15 @@ impl ArticulatedBody {
         })
     }
 
-    /// Where the joints are, in the reference frame: $x + R_0 d_{0i}$, m.
+    /// Where the joints are, in the reference frame: $x + R_0 d_{0i}$, m, in the order of the tails.
     pub fn joint_positions(&self, g: &Configuration) -> impl Iterator<Item = Vec3> {
         let (r0, x) = (g.0, g.1.vec3());
         self.joints()
             .map(move |joint| x + r0.rotate(joint.at_parent))
     }
 
-    /// Where the mass centres are, in the reference frame: $x$, then $x + R_0 d_{0i} - R_i d_{i0}$, m.
+    /// Where the mass centres are, in the reference frame: $x$, then $x + R_0 d_{0i} - R_i d_{i0}$, m;
+    /// as many tails as both the model and `g` have.
     pub fn centre_positions(&self, g: &Configuration) -> impl Iterator<Item = Vec3> {
         let centres = self.joint_positions(g).zip(self.joints()).zip(g.2.iter());
         let tails = centres.map(|((at, joint), r)| at - r.rotate(joint.at_child));

@@ -21,22 +21,23 @@ impl ArticulatedBody {
         let half = S::from_f64(0.5);
         let (y, e0) = (r0.inverse_rotate(dx), f0.minus_identity());
         let m0 = self.head.m.lift::<S>();
-        let mut sum = y.dot(m0 * y) * half - trace_of_product(e0, self.head.jd.lift());
+        let mut sum = y.dot(m0 * y) * half - rotation_action(f0, self.head.jd);
         for ((tail, r), f) in self.tails.iter().zip(r).zip(f) {
             let (m, e) = (tail.m.lift::<S>(), f.minus_identity());
             let b = r.inverse_rotate(dx + r0.rotate(e0 * tail.on_head.lift()));
             let mb = m * b;
             sum += b.dot(mb) * half - mb.dot(e * tail.on_tail.lift());
-            sum -= trace_of_product(e, tail.jd.lift());
+            sum -= rotation_action(f, tail.jd);
         }
         sum / h
     }
 }
 
-/// $\mathrm{tr}[A B]$ for a symmetric $B$.
+/// $\mathrm{tr}[E J_d]$, to which only the symmetric part of $E = F - I$ contributes.
 #[inline(always)]
-fn trace_of_product<S: Scalar>(a: Mat3<S>, b: Mat3<S>) -> S {
-    a.row(0).dot(b.row(0)) + a.row(1).dot(b.row(1)) + a.row(2).dot(b.row(2))
+fn rotation_action<S: Scalar>(f: &SO3<S>, jd: Mat3) -> S {
+    let (e, jd) = (f.symmetric_minus_identity(), jd.lift::<S>());
+    e.row(0).dot(jd.row(0)) + e.row(1).dot(jd.row(1)) + e.row(2).dot(jd.row(2))
 }
 
 /// $\left(J_d F - F^T J_d\right)^\vee$ from $E = F - I$: the identity cancels.

@@ -78,7 +78,7 @@ impl Ellipsoid {
     /// # Errors
     ///
     /// [`EllipsoidError::NotPositive`] unless each is finite and $> 0$;
-    /// [`EllipsoidError::OutOfRange`] if $abc$ or $abc\,a_i^2$ is no normal number;
+    /// [`EllipsoidError::OutOfRange`] if $abc$ or $abc a_i^2$ is no normal number;
     /// [`EllipsoidError::TooUnequal`] if a shape factor or a squared ratio of axes is no normal
     /// number (ratios above $10^{150}$ or so).
     pub fn new(semi_axes: [f64; 3]) -> Result<Self, EllipsoidError> {
@@ -118,7 +118,7 @@ impl Ellipsoid {
 
     /// The inertia of the uniform solid of this `mass` about its centre, kg m², diagonal:
     ///
-    /// $$ \tfrac m5\,(b^2+c^2), \quad \tfrac m5\,(c^2+a^2), \quad \tfrac m5\,(a^2+b^2). $$
+    /// $$ \tfrac m5 (b^2+c^2), \quad \tfrac m5 (c^2+a^2), \quad \tfrac m5 (a^2+b^2). $$
     pub fn dry_inertia(&self, mass: f64) -> [f64; 3] {
         let [a, b, c] = self.semi_axes;
         [(b, c), (c, a), (a, b)].map(|(y, z)| mass / 5.0 * (y * y + z * z))
@@ -126,7 +126,7 @@ impl Ellipsoid {
 
     /// The added mass, kg, diagonal:
     ///
-    /// $$ m_i = \frac{\alpha_i}{2-\alpha_i}\,\rho V = \frac{\alpha_i}{\alpha_j+\alpha_k}\,\rho V. $$
+    /// $$ m_i = \frac{\alpha_i}{2-\alpha_i} \rho V = \frac{\alpha_i}{\alpha_j+\alpha_k} \rho V. $$
     ///
     /// The second form keeps its digits for a disc, where $\alpha_i \to 2$. `density` is
     /// $\rho \ge 0$, kg/m³. Source: Lamb (1932), § 114.
@@ -157,7 +157,7 @@ impl Ellipsoid {
     /// Accuracy: with $\delta = |b^2-c^2|/(b^2+c^2)$ and $x = \tfrac12(b^2+c^2)\,
     /// (\gamma-\beta)/(b^2-c^2)$ this is
     ///
-    /// $$ J_1 = \frac{\rho V}5(b^2+c^2)\,\delta^2\,\frac{x}{1-x}, \qquad 0 < x < 1 , $$
+    /// $$ J_1 = \frac{\rho V}5(b^2+c^2) \delta^2 \frac{x}{1-x}, \qquad 0 < x < 1 , $$
     ///
     /// and $x \le \tfrac12$ where $\delta \to 0$. The difference quotients lose a factor
     /// $1/\delta$, so the relative error is a few $\varepsilon/\delta$ and, for small
@@ -188,7 +188,7 @@ fn gyration([b, c]: [f64; 2], [alpha, beta, gamma]: [f64; 3]) -> f64 {
     difference * ((gamma - beta) / (alpha + 2.0 * mu))
 }
 
-/// $\alpha_i = \tfrac23 abc\,R_D(a_j^2, a_k^2, a_i^2)$ of the axes over the longest; `None` if
+/// $\alpha_i = \tfrac23 abc R_D(a_j^2, a_k^2, a_i^2)$ of the axes over the longest; `None` if
 /// out of range.
 fn shape_factors(semi_axes: [f64; 3]) -> Option<[f64; 3]> {
     let longest = semi_axes.into_iter().fold(0.0, f64::max);
@@ -251,7 +251,7 @@ mod tests {
         );
     }
 
-    /// $\int_0^\infty f(\lambda)\,d\lambda$ by the trapezoid rule in $\ln\lambda$, which
+    /// $\int_0^\infty f(\lambda) d\lambda$ by the trapezoid rule in $\ln\lambda$, which
     /// converges exponentially for these integrands.
     fn quadrature(scale: f64, f: impl Fn(f64) -> f64) -> f64 {
         const STEP: f64 = 1.0 / 16.0;
@@ -275,7 +275,7 @@ mod tests {
 
     /// The added inertia about the first axis over that of the displaced fluid, from
     /// $\kappa = abc\int d\lambda/((b^2+\lambda)(c^2+\lambda)\Delta)$ and
-    /// $\mu = abc\int\lambda\,d\lambda/((b^2+\lambda)(c^2+\lambda)\Delta)$: no difference
+    /// $\mu = abc\int\lambda d\lambda/((b^2+\lambda)(c^2+\lambda)\Delta)$: no difference
     /// but $b^2-c^2$ itself.
     fn relative_inertia_by_quadrature(axes: [f64; 3]) -> f64 {
         let [_, b, c] = axes;

@@ -19,6 +19,14 @@ pub enum ModelError {
         /// Which matrix.
         matrix: &'static str,
     },
+    /// The numbers of a body or its joint are so large or small that what follows from them is not finite.
+    #[error(
+        "the inertia of body {body} and its joint overflows; expected masses and lengths in kg and m of moderate size"
+    )]
+    OutOfRange {
+        /// Index of the body.
+        body: usize,
+    },
     /// The joints do not hang every body but the first on the first.
     #[error(
         "body {body} hangs on {count} joints; expected one joint from body 0 to each other body (a tail on a tail is not supported)"

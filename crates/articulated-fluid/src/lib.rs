@@ -1,4 +1,42 @@
 //! Rigid ellipsoids on ball joints in a perfect fluid.
+//!
+//! The model of T. Lee, M. Leok, N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect fluid* (2009), for a head
+//! and any number of tails. The fluid is irrotational and incompressible, so that it only adds to the inertia of the bodies:
+//! anisotropic masses $M_i$ and inertias $J_i$.
+//!
+//! ```
+//! use articulated_fluid::Scene;
+//! use dvi::{Integrator, Variational};
+//!
+//! let scene = Scene::parse(articulated_fluid::scene::EXAMPLE, "example.toml")?;
+//! let (model, mut state) = (scene.model()?, scene.initial_state()?);
+//! let start = model.conserved(&state)?;
+//! let mut integrator = Variational::with_inertia(model.clone());
+//! for _ in 0..1000 {
+//!     integrator.step(&mut state, 1e-3)?;
+//! }
+//! let end = model.conserved(&state)?;
+//! assert!((end.angular - start.angular).norm() < 1e-12 * start.angular.norm());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | formula of the paper | where |
+//! |---|---|
+//! | (1)–(3), (6): velocities, kinetic energy | [`Lagrangian::value`](dvi::Lagrangian::value) of [`ArticulatedBody`] |
+//! | (5): added inertia of an ellipsoid | [`Ellipsoid`] |
+//! | (4), (10): inertia, Legendre transform | [`Lagrangian::legendre`](dvi::Lagrangian::legendre), [`Inertia`](dvi::Inertia) |
+//! | (11)–(13), (18)–(20): forces, Hamilton's equations | [`ContinuousSystem`](dvi::ContinuousSystem) of [`ArticulatedBody`] |
+//! | (21): displacement | [`Configuration`] as $f$ |
+//! | (22): discrete Lagrangian | [`DiscreteLagrangian::value`](dvi::DiscreteLagrangian::value) |
+//! | (27)–(33): its derivatives | [`DiscreteLagrangian::derivatives`](dvi::DiscreteLagrangian::derivatives) |
+//! | (34)–(38), (39)–(46): stepping maps | [`Variational`](dvi::Variational) |
+//! | linear and angular momentum | [`Conserved`] |
+//!
+//! The print is not right everywhere, and the formulas here are the mended ones. What matters to a reader: the couplings in
+//! (22) are taken at the left end alone, so the method is of order 1, not a trapezoidal rule; the joints of the tails in
+//! Sec. V have the opposite sign; and the density there is $1/(32 \pi)$ kg/m³.
+//!
+//! [`OnSe3`] is the same discrete Lagrangian on $SE(3) \times SO(3)^n$. [`scene`] reads scenes from files.
 
 mod conserved;
 mod continuous;

@@ -118,7 +118,12 @@ impl ArticulatedBody {
         let tail = |(i, body): (usize, &Body)| {
             let mut leading = joints.iter().filter(|joint| joint.child == i + 1);
             match (leading.next(), leading.count()) {
-                (Some(joint), 0) => Ok(Tail::new(body, joint)),
+                (Some(joint), 0) => {
+                    let tail = Tail::new(body, joint);
+                    tail.is_finite()
+                        .then_some(tail)
+                        .ok_or(ModelError::OutOfRange { body: i + 1 })
+                }
                 (first, more) => {
                     let count = usize::from(first.is_some()) + more;
                     Err(ModelError::Joints { body: i + 1, count })
@@ -200,15 +205,21 @@ impl Tail {
             m_joint: m + recoil * d * m,
         }
     }
+
+    fn is_finite(&self) -> bool {
+        let derived = [self.jd, self.j_inverse, self.recoil, self.m_joint];
+        derived.iter().all(|a| a.frobenius().is_finite())
+    }
 }
 
-/// $J_d = \frac12 \mathrm{tr}[J]\, I - J$, (23); indefinite where added inertia breaks the triangle inequality.
+/// $J_d = \frac12 \mathrm{tr}[J] I - J$, (23); indefinite where added inertia breaks the triangle inequality.
 fn nonstandard(j: Mat3) -> Mat3 {
     Mat3::diagonal([0.5 * j.trace(); 3]) - j
 }
 
-/// By the leading minors of a matrix that is symmetric to rounding.
+/// By the leading minors of a matrix that is symmetric to rounding, brought to trace one against underflow.
 fn positive_definite(a: &Mat3) -> bool {
+    let a = *a * (1.0 / a.trace());
     let symmetric = a.skew_vee().norm() <= 1e-12 * a.frobenius();
     let minor = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)];
     let positive = a[(0, 0)] > 0.0 && minor > 0.0 && a.determinant() > 0.0;

@@ -60,7 +60,7 @@ impl ArticulatedBody {
         }
     }
 
-    /// Solves $\mathbb I(g)\,\xi = \mu$; (10) inverted.
+    /// Solves $\mathbb I(g) \xi = \mu$; (10) inverted.
     #[inline(always)]
     pub(crate) fn solve_inertia<S: Scalar>(
         &self,

@@ -61,10 +61,10 @@ proptest! {
     fn the_flow_keeps_energy_and_momenta(sample in any_sample()) {
         let kept = kept(&sample);
         // Rounding of forces and velocities up to 1e2, times the condition of the inertia.
-        assert_close(&kept.map(|x| x.partial(0)), &[0.0; 7], 1e-11);
+        assert_close(&kept.map(|x| x.partial(0)), &[0.0; 7], 1e-12);
         let found = sample.model.conserved(&state(&sample)).expect("the model's state");
         let found = [&[found.energy][..], &found.linear.0, &found.angular.0].concat();
-        assert_close(&found, &kept.map(|x| x.value()), 1e-12);
+        assert_close(&found, &kept.map(|x| x.value()), 1e-13);
     }
 
     #[test]
@@ -121,8 +121,8 @@ proptest! {
         let back = OnSe3::to_direct(&OnSe3::from_direct(&direct));
         prop_assert_eq!(&back.g, &direct.g);
         prop_assert_eq!(back.t, direct.t);
-        // Rounding of a rotation and its inverse.
-        assert_close(&back.mu.to_vec(), &direct.mu.to_vec(), 1e-14);
+        // Rounding of a rotation and its inverse, of momenta up to 1e2.
+        assert_close(&back.mu.to_vec(), &direct.mu.to_vec(), 1e-13);
     }
 
     #[test]
@@ -138,13 +138,13 @@ proptest! {
         };
         let (value, end) = on_se3(g.0.inverse_rotate(f.1.vec3()));
         // Rounding of a quadratic form up to 1e3.
-        assert_close(&[value], &[direct], 1e-12);
+        assert_close(&[value], &[direct], 3e-12);
         assert_close(&end.0, &(g.1.vec3() + f.1.vec3()).0, 1e-14);
         let lifted = OnSe3(model.clone()).value::<J>(
             &(SE3::new(g.0, g.1.vec3()), g.2.clone()).lift(),
             &(SE3::new(f.0, g.0.inverse_rotate(f.1.vec3())), f.2.clone()).lift(),
             J::constant(H),
         );
-        assert_close(&[lifted.value()], &[value], 1e-12);
+        assert_close(&[lifted.value()], &[value], 3e-12);
     }
 }

@@ -54,9 +54,10 @@ proptest! {
     fn the_closed_form_is_the_derivative_by_dual_numbers(sample in any_sample()) {
         let Sample { model, g, f, .. } = &sample;
         let (closed, jets) = (closed(model, g, f, H), by_jets(model, g, f, H));
-        // d_f is linear and d_g quadratic in a small displacement, and both keep their relative accuracy.
+        // In d_f the duals cancel off-diagonal terms up to 30, however small the displacement is.
+        // d_g has no such terms, and is quadratic in a small displacement: relative accuracy in both.
         let size = scale(&sample);
-        assert_close(&closed.d_f.to_vec(), &jets.d_f.to_vec(), 1e-15 * size / H);
+        assert_close(&closed.d_f.to_vec(), &jets.d_f.to_vec(), 1e-14 * (1.0 + size) / H);
         assert_close(&closed.d_g.to_vec(), &jets.d_g.to_vec(), 1e-15 * size * size.min(1.0) / H);
     }
 
@@ -121,12 +122,12 @@ proptest! {
         let after = DiscreteLagrangian::value(model, &rotated, &carried, H);
         // Rounding of a quadratic form.
         let size = scale(&sample);
-        assert_close(&[after], &[before], 1e-15 * size * size / H);
+        assert_close(&[after], &[before], 1e-16 * size * size / H);
         // Its derivative at the identity: the moments on all attitudes balance that of the displaced momentum.
         let derivatives = closed(model, g, f, H);
         let moments = g.2.iter().zip(derivatives.d_g.2.iter()).map(|(r, d)| r.rotate(d.vec3()));
         let moment = moments.fold(g.0.rotate(derivatives.d_g.0.vec3()), |sum, m| sum + m);
         let displaced = f.1.vec3().cross(derivatives.d_f.1.vec3());
-        assert_close(&moment.0, &(-displaced).0, 1e-15 * size * size / H);
+        assert_close(&moment.0, &(-displaced).0, 1e-16 * size * size / H);
     }
 }

@@ -7,14 +7,14 @@ use crate::{Derivatives, DiscreteLagrangian};
 /// The discrete Euler–Lagrange equations (25) at one step, in momentum form and in the frame of the step's end.
 ///
 /// With $f = \tau(c)$, the residual is
-/// $\mathsf T_e^* \mathsf L_f \cdot \mathbf D_f L_d - \mathrm{Ad}^*_f \left(\mu_k + \mathsf T_e^* \mathsf L_g \cdot \mathbf D_g L_d\right)$,
+/// $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d - \mathrm{Ad}^\ast_f \left(\mu_k + \mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d\right)$,
 /// and the transported momentum in it is $\mu_{k+1}$ where the residual vanishes.
 pub(crate) struct Balance<G: RealGroup, S: Scalar> {
     pub(crate) f: Over<G, S>,
     pub(crate) derivatives: Derivatives<G, S>,
-    /// $\mathrm{Ad}^*_f (\mu_k + d_g)$.
+    /// $\mathrm{Ad}^\ast_f (\mu_k + d_g)$.
     pub(crate) transported: DualOver<G, S>,
-    /// $d_f - \mathrm{Ad}^*_f (\mu_k + d_g)$.
+    /// $d_f - \mathrm{Ad}^\ast_f (\mu_k + d_g)$.
     pub(crate) residual: DualOver<G, S>,
     momentum: DualOver<G, S>,
 }

@@ -3,7 +3,7 @@
 use lie::{AlgebraOver, DualOver, Over, RealGroup, Scalar};
 
 /// Hamilton's equations on a left-trivialised cotangent bundle, (8)–(9):
-/// $\dot g = g\,\xi$, $\dot\mu = \mathrm{ad}^*_\xi \mu + \tau$.
+/// $\dot g = g \xi$, $\dot\mu = \mathrm{ad}^\ast_\xi \mu + \tau$.
 ///
 /// This is what explicit baselines and collocation methods integrate.
 pub trait ContinuousSystem {
@@ -16,7 +16,7 @@ pub trait ContinuousSystem {
     /// Storage for [`velocity_and_force`](Self::velocity_and_force).
     fn workspace<S: Scalar>(&self) -> Self::Workspace<S>;
 
-    /// The velocity $\xi$ with $\mu = \mathbf D_\xi L(g, \xi)$, and the force $\tau = \mathsf T_e^* \mathsf L_g \cdot \mathbf D_g L(g, \xi)$.
+    /// The velocity $\xi$ with $\mu = \mathbf D_\xi L(g, \xi)$, and the force $\tau = \mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L(g, \xi)$.
     ///
     /// Writes every coordinate of `xi` and `tau`.
     fn velocity_and_force<S: Scalar>(

@@ -5,7 +5,7 @@ use lie::{LieGroup, VectorSpace};
 use crate::DiscreteLagrangian;
 use crate::solver::{Algebra, Dual, StepSolver};
 
-/// A model that solves its inertia, $\mathbb I(g)\,\xi = \mu$, faster than a dense matrix does.
+/// A model that solves its inertia, $\mathbb I(g) \xi = \mu$, faster than a dense matrix does.
 pub trait Inertia: DiscreteLagrangian {
     /// The factorised inertia at a configuration.
     type Factor;
@@ -16,7 +16,7 @@ pub trait Inertia: DiscreteLagrangian {
     /// Factorises $\mathbb I(g)$.
     fn factorise(&self, g: &Self::Group, factor: &mut Self::Factor);
 
-    /// Solves $\mathbb I(g)\,\xi = \mu$; writes every coordinate of `xi`.
+    /// Solves $\mathbb I(g) \xi = \mu$; writes every coordinate of `xi`.
     fn solve(
         &self,
         factor: &Self::Factor,
@@ -37,7 +37,7 @@ pub trait Inertia: DiscreteLagrangian {
     );
 }
 
-/// Quasi-Newton with the matrix $\mathbb I(g_k)/h$: one factorisation a step, contraction by a factor of the order of $h\,|\xi|$.
+/// Quasi-Newton with the matrix $\mathbb I(g_k)/h$: one factorisation a step, contraction by a factor of the order of $h |\xi|$.
 pub struct FrozenInertia<L: Inertia> {
     factor: L::Factor,
     h: f64,

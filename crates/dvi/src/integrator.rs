@@ -37,3 +37,23 @@ pub struct StepReport {
     /// Norm of the equation's residual, relative to the momentum's.
     pub residual: f64,
 }
+
+impl<I: Integrator + ?Sized> Integrator for Box<I> {
+    type Group = I::Group;
+
+    fn order(&self) -> u32 {
+        (**self).order()
+    }
+
+    fn is_symmetric(&self) -> bool {
+        (**self).is_symmetric()
+    }
+
+    fn is_symplectic(&self) -> bool {
+        (**self).is_symplectic()
+    }
+
+    fn step(&mut self, state: &mut State<I::Group>, h: f64) -> Result<StepReport, StepError> {
+        (**self).step(state, h)
+    }
+}

@@ -8,13 +8,16 @@ pub(crate) fn for_each_chunk(dim: usize, body: impl FnMut(usize)) {
     (0..dim).step_by(lie::JET_DIRECTIONS).for_each(body);
 }
 
+/// An element of `G` over the duals of `S`.
+type Moved<G, S> = Over<G, <S as Scalar>::Jet>;
+
 /// $g$ and $f$ over the duals of `S`, with room for the moved one.
 pub(crate) struct Lifted<G: RealGroup, S: Scalar> {
-    g: Over<G, S::Jet>,
-    f: Over<G, S::Jet>,
+    g: Moved<G, S>,
+    f: Moved<G, S>,
     zeta: AlgebraOver<G, S::Jet>,
-    small: Over<G, S::Jet>,
-    moved: Over<G, S::Jet>,
+    small: Moved<G, S>,
+    moved: Moved<G, S>,
 }
 
 impl<G: RealGroup, S: Scalar> Lifted<G, S> {
@@ -36,14 +39,14 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
     }
 
     /// $(g, f \exp\zeta)$ with the directions from `first` on; to first order, any retraction is the exponential.
-    pub(crate) fn moving_f(&mut self, first: usize) -> (&Over<G, S::Jet>, &Over<G, S::Jet>) {
+    pub(crate) fn moving_f(&mut self, first: usize) -> (&Moved<G, S>, &Moved<G, S>) {
         self.step_along(first);
         self.f.compose_into(&self.small, &mut self.moved);
         (&self.g, &self.moved)
     }
 
     /// $(g \exp\eta, f)$, likewise.
-    pub(crate) fn moving_g(&mut self, first: usize) -> (&Over<G, S::Jet>, &Over<G, S::Jet>) {
+    pub(crate) fn moving_g(&mut self, first: usize) -> (&Moved<G, S>, &Moved<G, S>) {
         self.step_along(first);
         self.g.compose_into(&self.small, &mut self.moved);
         (&self.moved, &self.f)

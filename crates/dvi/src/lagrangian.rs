@@ -7,7 +7,7 @@ use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorS
 
 use crate::jets::{Lifted, for_each_chunk};
 
-/// A Lagrangian $L(g, \xi)$ on a left-trivialised tangent bundle, $\dot g = g\,\xi$.
+/// A Lagrangian $L(g, \xi)$ on a left-trivialised tangent bundle, $\dot g = g \xi$.
 pub trait Lagrangian {
     /// The configuration group.
     type Group: RealGroup;
@@ -106,9 +106,9 @@ pub trait DiscreteLagrangian {
 
 /// The derivatives of a discrete Lagrangian, and the storage that finding them by dual numbers needs.
 pub struct Derivatives<G: RealGroup, S: Scalar> {
-    /// $\mathsf T_e^* \mathsf L_f \cdot \mathbf D_f L_d$: the derivative along $f \exp(\zeta)$ at $\zeta = 0$.
+    /// $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$: the derivative along $f \exp(\zeta)$ at $\zeta = 0$.
     pub d_f: DualOver<G, S>,
-    /// $\mathsf T_e^* \mathsf L_g \cdot \mathbf D_g L_d$: the derivative along $g \exp(\eta)$ at $\eta = 0$.
+    /// $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$: the derivative along $g \exp(\eta)$ at $\eta = 0$.
     pub d_g: DualOver<G, S>,
     lifted: Option<Lifted<G, S>>,
 }

@@ -4,7 +4,7 @@ use lie::LieGroup;
 
 use crate::{Derivatives, DiscreteLagrangian};
 
-/// $\mathbb F^+ L_d (g_k, f_k) = \mathsf T_e^* \mathsf L_{f_k} \cdot \mathbf D_{f_k} L_d$: the momentum $\mu_{k+1}$, (44)–(46).
+/// $\mathbb F^+ L_d (g_k, f_k) = \mathsf T_e^\ast \mathsf L_{f_k} \cdot \mathbf D_{f_k} L_d$: the momentum $\mu_{k+1}$, (44)–(46).
 pub fn legendre_plus<L: DiscreteLagrangian>(
     lagrangian: &L,
     g: &L::Group,
@@ -14,7 +14,7 @@ pub fn legendre_plus<L: DiscreteLagrangian>(
     derivatives(lagrangian, g, f, h).d_f
 }
 
-/// $\mathbb F^- L_d (g_k, f_k) = -\mathsf T_e^* \mathsf L_{g_k} \cdot \mathbf D_{g_k} L_d + \mathrm{Ad}^*_{f_k^{-1}} \left(\mathsf T_e^* \mathsf L_{f_k} \cdot \mathbf D_{f_k} L_d\right)$: the momentum $\mu_k$, (39)–(41).
+/// $\mathbb F^- L_d (g_k, f_k) = -\mathsf T_e^\ast \mathsf L_{g_k} \cdot \mathbf D_{g_k} L_d + \mathrm{Ad}^\ast_{f_k^{-1}} \left(\mathsf T_e^\ast \mathsf L_{f_k} \cdot \mathbf D_{f_k} L_d\right)$: the momentum $\mu_k$, (39)–(41).
 pub fn legendre_minus<L: DiscreteLagrangian>(
     lagrangian: &L,
     g: &L::Group,

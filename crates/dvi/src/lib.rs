@@ -1,4 +1,29 @@
-//! Discrete variational integrators on Lie groups.
+//! Discrete variational integrators on Lie groups: from a discrete Lagrangian to a stepping map.
+//!
+//! Write one value, $L_d(g_k, f_k)$, the action of a step from $g_k$ to $g_{k+1} = g_k f_k$. [`Variational`] steps it:
+//! the group, the symplectic form and the momentum maps are kept, because the map is the extremum of a discrete action.
+//!
+//! | what | mathematics | code |
+//! |---|---|---|
+//! | discrete Lagrangian | $L_d(g, f)$ | [`DiscreteLagrangian::value`] |
+//! | its derivatives | $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$, $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$ | [`DiscreteLagrangian::derivatives`], by dual numbers unless given |
+//! | Hamiltonian form | $(g_k, \mu_k) \mapsto (g_{k+1}, \mu_{k+1})$ | [`Integrator::step`] |
+//! | Lagrangian form | $(g_k, f_k) \mapsto (g_{k+1}, f_{k+1})$, (25)–(26) | [`Variational::step_pair`] |
+//! | discrete Legendre transforms | $\mathbb F^- L_d$, $\mathbb F^+ L_d$ | [`legendre_minus`], [`legendre_plus`], [`Variational::displacement`] |
+//! | Lagrangian, Legendre transform | $L(g, \xi)$, $\mu = \mathbf D_\xi L$ | [`Lagrangian`] |
+//! | Hamilton's equations | $\dot g = g \xi$, $\dot \mu = \mathrm{ad}^\ast_\xi \mu + \tau$ | [`ContinuousSystem`] |
+//!
+//! Equation numbers are those of T. Lee, M. Leok, N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect
+//! fluid* (2009). The print of (25) has $\mathrm{Ad}^\ast_{f_{k+1}}$ where $\mathrm{Ad}^\ast_{f_{k+1}^{-1}}$ is meant.
+//!
+//! # How a step is solved
+//! The unknown is $c$ with $f_k = \tau(c)$, $\tau$ the Cayley map or the exponential. The balance of momenta is brought below
+//! a tolerance relative to the momentum, starting from an extrapolation of the steps before, by one of two iterations:
+//! [`Variational::new`] takes Newton's matrix from dual numbers and keeps it until convergence slows;
+//! [`Variational::with_inertia`] takes the inertia of a model that solves it fast ([`Inertia`]).
+//!
+//! The new momentum is the coadjoint transport of the old one, not a difference quotient: so momentum maps hold to rounding
+//! even at a loose tolerance, and say nothing about whether the step was solved. The [`StepReport`]'s residual does.
 
 mod balance;
 mod continuous;

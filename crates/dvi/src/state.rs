@@ -19,7 +19,7 @@ pub struct State<G: RealGroup> {
     pub t: f64,
     /// Configuration $g_k$.
     pub g: G,
-    /// Left-trivialised momentum $\mu_k \in \mathfrak g^*$.
+    /// Left-trivialised momentum $\mu_k \in \mathfrak g^\ast$.
     pub mu: G::Dual,
 }
 

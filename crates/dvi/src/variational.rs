@@ -26,7 +26,7 @@ const NORMALIZE_EVERY: u64 = 32;
 /// A Lie group variational integrator: the stepping map of a discrete Lagrangian.
 ///
 /// A step solves the momentum balance
-/// $\mathsf T_e^* \mathsf L_{f} \cdot \mathbf D_{f} L_d = \mathrm{Ad}^*_{f} \left(\mu_k + \mathsf T_e^* \mathsf L_{g} \cdot \mathbf D_{g} L_d\right)$
+/// $\mathsf T_e^\ast \mathsf L_{f} \cdot \mathbf D_{f} L_d = \mathrm{Ad}^\ast_{f} \left(\mu_k + \mathsf T_e^\ast \mathsf L_{g} \cdot \mathbf D_{g} L_d\right)$
 /// for $f_k = \tau(c)$, then $g_{k+1} = g_k f_k$ and $\mu_{k+1}$ is the right-hand side: the momentum is *carried* by the
 /// coadjoint transport, so that the momentum map holds to rounding even where the balance holds to a tolerance only.
 /// This is (25)–(26) of Lee, Leok & McClamroch (2009) in the form (39)–(46).

@@ -17,11 +17,11 @@ pub type DualOver<G, S> = <Over<G, S> as LieGroup>::Dual;
 
 /// A Lie group: elements, algebra, dual, and the maps between them.
 ///
-/// Conventions (see the [crate's notation](crate#notation)): left trivialisation, $\dot g = g\,\xi$;
+/// Conventions (see the [crate's notation](crate#notation)): left trivialisation, $\dot g = g \xi$;
 /// $\mathrm{Ad}_g \xi = g \xi g^{-1}$; $\mathrm{ad}_\xi \eta = [\xi, \eta]$;
-/// $\langle \mathrm{Ad}^*_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}_g \xi\rangle$ and
-/// $\langle \mathrm{ad}^*_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}_\xi \eta\rangle$;
-/// differentials are left-trivialised, $\mathrm d\exp_\xi \eta = \exp(-\xi)\, \frac{d}{ds}\big|_0 \exp(\xi + s\eta)$.
+/// $\langle \mathrm{Ad}^\ast_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}_g \xi\rangle$ and
+/// $\langle \mathrm{ad}^\ast_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}_\xi \eta\rangle$;
+/// differentials are left-trivialised, $\mathrm d\exp_\xi \eta = \exp(-\xi) \frac{d}{ds}\vert_{s=0} \exp(\xi + s\eta)$.
 ///
 /// A type is a *family* over scalars: [`WithScalar`](Self::WithScalar) names its relatives, so one formula
 /// runs on floats, dual numbers and SIMD lanes. Write the required items for a group of your own and call
@@ -35,7 +35,7 @@ pub trait LieGroup: Clone + Debug + PartialEq {
     type Scalar: Scalar;
     /// The Lie algebra $\mathfrak g$.
     type Algebra: VectorSpace<Scalar = Self::Scalar>;
-    /// The dual $\mathfrak g^*$, paired by coordinates.
+    /// The dual $\mathfrak g^\ast$, paired by coordinates.
     type Dual: VectorSpace<Scalar = Self::Scalar>;
     /// The same group over another scalar.
     type WithScalar<S: Scalar>: LieGroup<Scalar = S>;
@@ -50,7 +50,7 @@ pub trait LieGroup: Clone + Debug + PartialEq {
     fn convert<S: Scalar, T: Scalar>(g: &Over<Self, S>, f: impl Fn(S) -> T + Copy)
     -> Over<Self, T>;
 
-    /// $g\,h$.
+    /// $g h$.
     fn compose(&self, h: &Self) -> Self;
 
     /// $g^{-1}$.
@@ -65,7 +65,7 @@ pub trait LieGroup: Clone + Debug + PartialEq {
     /// [`NotUnique`], with one of the answers, where there are several.
     fn log(&self) -> Result<Self::Algebra, NotUnique<Self::Algebra>>;
 
-    /// $\mathrm{Ad}_g \xi = g\,\xi\,g^{-1}$.
+    /// $\mathrm{Ad}_g \xi = g \xi g^{-1}$.
     fn adjoint(&self, xi: &Self::Algebra) -> Self::Algebra;
 
     /// $\mathrm{ad}_\xi \eta = [\xi, \eta]$.
@@ -82,12 +82,12 @@ pub trait LieGroup: Clone + Debug + PartialEq {
         (0..mu.dim()).fold(Self::Scalar::zero(), |sum, i| sum + mu.get(i) * xi.get(i))
     }
 
-    /// $\mathrm{Ad}^*_g \mu$, with $\langle \mathrm{Ad}^*_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}_g \xi\rangle$.
+    /// $\mathrm{Ad}^\ast_g \mu$, with $\langle \mathrm{Ad}^\ast_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}_g \xi\rangle$.
     fn coadjoint(&self, mu: &Self::Dual) -> Self::Dual {
         dense::transpose_by_pairing::<Self>(mu, &self.zero_algebra(), |e| self.adjoint(e))
     }
 
-    /// $\mathrm{ad}^*_\xi \mu$, with $\langle \mathrm{ad}^*_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}_\xi \eta\rangle$.
+    /// $\mathrm{ad}^\ast_\xi \mu$, with $\langle \mathrm{ad}^\ast_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}_\xi \eta\rangle$.
     fn coadjoint_bracket(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
         dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::bracket(xi, e))
     }

@@ -1,4 +1,70 @@
-//! Lie groups for mechanics.
+//! Lie groups for mechanics: elements, algebras, duals and the maps between them, over any scalar.
+//!
+//! ```
+//! use lie::{LieGroup, SE3, SO3, Tangent, Vec3, VectorSpace};
+//!
+//! // A pose, moved along a twist (angular, then linear velocity, in the body's frame) for a second.
+//! let pose = SE3::new(SO3::identity(), Vec3([1.0, 0.0, 0.0]));
+//! let twist = Tangent([0.0, 0.0, 0.5, 2.0, 0.0, 0.0]);
+//! let moved = pose.compose(&SE3::exp(&twist));
+//!
+//! // The way back.
+//! let back = pose.inverse().compose(&moved).log()?;
+//! assert!((back - twist).max_magnitude() < 1e-15);
+//! # Ok::<(), lie::NotUnique<Tangent<6, f64>>>(())
+//! ```
+//!
+//! # What is here
+//! | group | type | algebra, dual |
+//! |---|---|---|
+//! | rotations $SO(3)$ | [`SO3`] | [`Tangent<3>`](Tangent), [`Cotangent<3>`](Cotangent) |
+//! | displacements $SE(3)$ | [`SE3`] | [`Tangent<6>`](Tangent), [`Cotangent<6>`](Cotangent): rotation first |
+//! | $\mathbb{R}^n$ | [`Rn<N>`](Rn), [`R3`] | [`Tangent<N>`](Tangent), [`Cotangent<N>`](Cotangent) |
+//! | direct products | tuples of 2 to 4 groups | tuples |
+//! | powers $G^N$ | `[G; N]` | arrays |
+//! | powers of run-time size | [`Power<G>`](Power) | [`Power`] of the factor's |
+//!
+//! [`laws::check`] proves the laws of any of them, and of a group of your own.
+//!
+//! # Notation
+//! | operation | mathematics | code |
+//! |---|---|---|
+//! | product, inverse | $g h$, $g^{-1}$ | [`g.compose(&h)`](LieGroup::compose), [`g.inverse()`](LieGroup::inverse) |
+//! | exponential, logarithm | $\exp \xi$, $\log g$ | [`G::exp(&xi)`](LieGroup::exp), [`g.log()`](LieGroup::log) |
+//! | Cayley map | $(1 - \xi/2)^{-1} (1 + \xi/2)$ | [`G::cayley(&xi)`](LieGroup::cayley), [`g.cayley_inverse()`](LieGroup::cayley_inverse) |
+//! | adjoint action | $\mathrm{Ad}_g \xi = g \xi g^{-1}$ | [`g.adjoint(&xi)`](LieGroup::adjoint) |
+//! | bracket | $\mathrm{ad}_\xi \eta = [\xi, \eta]$ | [`G::bracket(&xi, &eta)`](LieGroup::bracket) |
+//! | pairing | $\langle \mu, \xi \rangle$ | [`G::pair(&mu, &xi)`](LieGroup::pair) |
+//! | coadjoint action | $\langle \mathrm{Ad}^\ast_g \mu, \xi \rangle = \langle \mu, \mathrm{Ad}_g \xi \rangle$ | [`g.coadjoint(&mu)`](LieGroup::coadjoint) |
+//! | its derivative | $\langle \mathrm{ad}^\ast_\xi \mu, \eta \rangle = \langle \mu, \mathrm{ad}_\xi \eta \rangle$ | [`G::coadjoint_bracket(&xi, &mu)`](LieGroup::coadjoint_bracket) |
+//! | left-trivialised differential | $\mathrm d\exp_\xi \eta = \exp(-\xi) \frac{d}{ds} \exp(\xi + s \eta)$ at $s = 0$ | [`G::dexp(&xi, &eta)`](LieGroup::dexp), [`Retraction::d_left`] |
+//! | right-trivialised differential | $\frac{d}{ds} \exp(\xi + s \eta) \exp(-\xi)$ at $s = 0$ | [`Retraction::d_right`] |
+//! | hat, vee | $\hat x y = x \times y$ | [`Vec3::hat`], [`Mat3::vee`] |
+//!
+//! Trivialisation is on the left everywhere: $\dot g = g \xi$, and velocities of rigid bodies are in the body's frame.
+//! With this convention $\mathrm{Ad}^\ast$ is a right action: on $SO(3)$, $\mathrm{Ad}^\ast_R \mu = R^T \mu$.
+//!
+//! # One formula, every scalar
+//! All types take a [`Scalar`], `f64` unless said: `f32`, and the dual numbers of `num-dual` to any depth. A group is a
+//! family: [`Over<G, S>`](Over) is `G` over `S`. [`Scalar::Jet`] is the dual number that carries [`JET_DIRECTIONS`]
+//! derivatives, and [`seed`] makes of it the left-trivialised derivative of any function of a group element:
+//!
+//! ```
+//! use lie::{Jet, LieGroup, Mat3, RealGroup, SO3, Scalar, Tangent, Vec3};
+//!
+//! /// The height of the point `e_x` of a body.
+//! fn height<S: Scalar>(r: &SO3<S>) -> S {
+//!     r.rotate(Vec3([1.0, 0.0, 0.0]).lift())[2]
+//! }
+//! let mut zeta = SO3::identity().lift::<<f64 as Scalar>::Jet>().zero_algebra();
+//! lie::seed(&mut zeta, 0);
+//! let slope = height(&SO3::exp(&zeta));
+//! // Turning about -y lifts it.
+//! assert_eq!([0, 1, 2].map(|i| slope.partial(i)), [0.0, -1.0, 0.0]);
+//! ```
+//!
+//! # Features
+//! * `nalgebra`: conversions to and from its vectors, rotations and isometries.
 
 mod approximate;
 #[cfg(feature = "nalgebra")]

@@ -55,7 +55,7 @@ impl<S: Scalar> Mat3<S> {
         Vec3(self.0[i])
     }
 
-    /// $\mathrm{tr}\, A$.
+    /// $\mathrm{tr} A$.
     #[inline(always)]
     pub fn trace(self) -> S {
         self.0[0][0] + self.0[1][1] + self.0[2][2]
@@ -89,7 +89,7 @@ impl<S: Scalar> Mat3<S> {
         self.skew_vee() * S::from_f64(0.5)
     }
 
-    /// $A\,x\,A^T$ for a symmetric `x`.
+    /// $A x A^T$ for a symmetric `x`.
     #[inline(always)]
     pub fn conjugate(self, x: Self) -> Self {
         self * x * self.transpose()

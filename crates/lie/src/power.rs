@@ -12,7 +12,7 @@ use core::ops::{Deref, DerefMut};
 /// ```
 /// use lie::{LieGroup, Power, SO3, VectorSpace};
 ///
-/// let attitudes = Power::new(vec![SO3::identity(); 30]);
+/// let attitudes = Power::new(vec![SO3::<f64>::identity(); 30]);
 /// assert_eq!(attitudes.zero_algebra().dim(), 90);
 /// assert_eq!(attitudes.compose(&attitudes), attitudes);
 /// ```

@@ -31,13 +31,13 @@ pub trait Retraction: Copy + Debug + Default + 'static {
     /// [`OutsideChart`] where the inverse does not exist or is not unique.
     fn inverse<G: LieGroup>(g: &G) -> Result<G::Algebra, OutsideChart>;
 
-    /// The left-trivialised differential: $\tau(\xi)^{-1}\, \frac{d}{ds}\big|_0 \tau(\xi + s \eta)$.
+    /// The left-trivialised differential: $\tau(\xi)^{-1} \frac{d}{ds}\vert_{s=0} \tau(\xi + s \eta)$.
     fn d_left<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra;
 
     /// The inverse of [`d_left`](Self::d_left) in `eta`.
     fn d_left_inv<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra;
 
-    /// The right-trivialised differential: $\frac{d}{ds}\big|_0 \tau(\xi + s \eta)\; \tau(\xi)^{-1}$, which is
+    /// The right-trivialised differential: $\frac{d}{ds}\vert_{s=0} \tau(\xi + s \eta) \tau(\xi)^{-1}$, which is
     /// the left-trivialised one at $-\xi$.
     fn d_right<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
         Self::d_left::<G>(&negated(xi), eta)

@@ -4,7 +4,7 @@ use crate::{Cotangent, LieGroup, NotUnique, Over, Scalar, Tangent, Vec3};
 
 /// A vector of $\mathbb{R}^n$, the group operation being addition.
 ///
-/// The group is abelian: $\mathrm{Ad}$ and $\mathrm{Ad}^*$ are the identity, $\mathrm{ad}$ and $\mathrm{ad}^*$ are zero.
+/// The group is abelian: $\mathrm{Ad}$ and $\mathrm{Ad}^\ast$ are the identity, $\mathrm{ad}$ and $\mathrm{ad}^\ast$ are zero.
 ///
 /// ```
 /// use lie::{LieGroup, Rn};

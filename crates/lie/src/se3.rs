@@ -3,11 +3,11 @@
 use crate::stumpff::stumpff;
 use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO3, Scalar, Tangent, Vec3};
 
-/// A rigid displacement $y \mapsto R\,y + x$, the semidirect product $SO(3) \ltimes \mathbb{R}^3$.
+/// A rigid displacement $y \mapsto R y + x$, the semidirect product $SO(3) \ltimes \mathbb{R}^3$.
 ///
 /// Coordinates of the algebra: angular, then linear velocity, both in the body's frame, $(\omega, v)$;
-/// of the dual: $(\pi, q)$. Then $\mathrm{Ad}_{(R,x)} (\omega, v) = (R\omega,\, Rv + x \times R\omega)$ and
-/// $\mathrm{Ad}^*_{(R,x)} (\pi, q) = (R^T(\pi + q \times x),\, R^T q)$.
+/// of the dual: $(\pi, q)$. Then $\mathrm{Ad}_{(R,x)} (\omega, v) = (R\omega, Rv + x \times R\omega)$ and
+/// $\mathrm{Ad}^\ast_{(R,x)} (\pi, q) = (R^T(\pi + q \times x), R^T q)$.
 ///
 /// ```
 /// use lie::{LieGroup, SE3, SO3, Vec3};
@@ -36,7 +36,7 @@ impl<S: Scalar> SE3<S> {
         Self::new(SO3::identity(), Vec3::zero())
     }
 
-    /// The displacement $y \mapsto R\,y + x$.
+    /// The displacement $y \mapsto R y + x$.
     #[inline(always)]
     pub fn new(rotation: SO3<S>, translation: Vec3<S>) -> Self {
         Self {
@@ -53,7 +53,7 @@ impl<S: Scalar> SE3<S> {
         (v + w.cross(v) * S::from_f64(0.5) + w * (w.dot(v) * quarter)) * scale
     }
 
-    /// $\sum_k a_k\, \mathrm{ad}_\xi^k \eta$ for $k = 0, \dots, 4$.
+    /// $\sum_k a_k \mathrm{ad}_\xi^k \eta$ for $k = 0, \dots, 4$.
     #[inline(always)]
     fn ad_polynomial(xi: &Tangent<6, S>, eta: &Tangent<6, S>, a: [S; 4]) -> Tangent<6, S> {
         let mut power = *eta;
@@ -100,7 +100,7 @@ impl<S: Scalar> LieGroup for SE3<S> {
         )
     }
 
-    /// $(\exp\hat\omega,\; (1 + c_2 \hat\omega + c_3 \hat\omega^2)\, v)$.
+    /// $(\exp\hat\omega, (1 + c_2 \hat\omega + c_3 \hat\omega^2) v)$.
     #[inline(always)]
     fn exp(xi: &Tangent<6, S>) -> Self {
         let (w, v) = xi.split();
@@ -189,7 +189,7 @@ impl<S: Scalar> LieGroup for SE3<S> {
         Self::ad_polynomial(xi, eta, [c(0.5), b2, S::zero(), b4])
     }
 
-    /// The Cayley map of the 4×4 matrices: $(\mathrm{cay}(\omega),\; (1 - \hat\omega/2)^{-1} v)$.
+    /// The Cayley map of the 4×4 matrices: $(\mathrm{cay}(\omega), (1 - \hat\omega/2)^{-1} v)$.
     #[inline(always)]
     fn cayley(xi: &Tangent<6, S>) -> Self {
         let (w, v) = xi.split();
@@ -203,7 +203,7 @@ impl<S: Scalar> LieGroup for SE3<S> {
         Ok((w, v).into())
     }
 
-    /// $(\mathrm d\mathrm{cay}_\omega \eta,\; (1 + \hat\omega/2)^{-1} (u + \frac12 \eta \times x))$ with $x$ the translation of $\mathrm{cay}(\omega, v)$.
+    /// $(\mathrm d\mathrm{cay}_\omega \eta, (1 + \hat\omega/2)^{-1} (u + \frac12 \eta \times x))$ with $x$ the translation of $\mathrm{cay}(\omega, v)$.
     #[inline(always)]
     fn dcay(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
         let ((w, v), (eta, u)) = (xi.split(), eta.split());

@@ -10,8 +10,8 @@ const ORTHOGONALITY_TOLERANCE: f64 = 1e-6;
 
 /// A rotation, held as its matrix $R$.
 ///
-/// Algebra and dual are $\mathbb{R}^3$ by the hat map: $\mathrm{Ad}_R \Omega = R\,\Omega$,
-/// $\mathrm{ad}_\Omega \eta = \Omega \times \eta$, $\mathrm{Ad}^*_R \mu = R^T \mu$, $\mathrm{ad}^*_\Omega \mu = \mu \times \Omega$.
+/// Algebra and dual are $\mathbb{R}^3$ by the hat map: $\mathrm{Ad}_R \Omega = R \Omega$,
+/// $\mathrm{ad}_\Omega \eta = \Omega \times \eta$, $\mathrm{Ad}^\ast_R \mu = R^T \mu$, $\mathrm{ad}^\ast_\Omega \mu = \mu \times \Omega$.
 ///
 /// ```
 /// use lie::{LieGroup, SO3, Tangent, Vec3};
@@ -113,7 +113,7 @@ impl<S: Scalar> SO3<S> {
         best.map(|x| x * scale)
     }
 
-    /// $R\,x$.
+    /// $R x$.
     #[inline(always)]
     pub fn rotate(&self, x: Vec3<S>) -> Vec3<S> {
         self.matrix * x
@@ -127,16 +127,22 @@ impl<S: Scalar> SO3<S> {
 
     /// $R - I$, with small relative error also where $R$ is close to the identity.
     ///
-    /// From the skew part $\hat s = \frac12 (R - R^T)$ as $\hat s + \hat s^2 / (1 + \cos\theta)$: entry by entry,
-    /// $R - I$ would lose the digits that a step of size $h$ divides by $h$.
+    /// The skew part $\hat s = \frac12 (R - R^T)$ and [the symmetric one](Self::symmetric_minus_identity): entry by
+    /// entry, $R - I$ would lose the digits that a step of size $h$ divides by $h$.
     #[inline(always)]
     pub fn minus_identity(&self) -> Mat3<S> {
-        let s = self.matrix.vee();
-        let trace = self.matrix.trace();
+        self.matrix.vee().hat() + self.symmetric_minus_identity()
+    }
+
+    /// The symmetric part of $R - I$, likewise: $\hat s^2 / (1 + \cos\theta)$ with $\hat s = \frac12 (R - R^T)$.
+    #[inline(always)]
+    pub fn symmetric_minus_identity(&self) -> Mat3<S> {
+        let (s, trace) = (self.matrix.vee(), self.matrix.trace());
         let acute = S::zero().less(trace);
         let scale = S::from_f64(2.0) / (S::one() + S::select(acute, trace, S::one()));
-        let symmetric = s.outer(s) - Mat3::diagonal([s.norm_squared(); 3]);
-        let (near, far) = (s.hat() + symmetric * scale, self.matrix - Mat3::identity());
+        let near = (s.outer(s) - Mat3::diagonal([s.norm_squared(); 3])) * scale;
+        let sum = (self.matrix + self.matrix.transpose()) * S::from_f64(0.5);
+        let far = sum - Mat3::identity();
         Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| S::select(acute, near[(i, j)], far[(i, j)]))))
     }
 
@@ -287,7 +293,7 @@ impl<S: Scalar> LieGroup for SO3<S> {
         (eta + w.cross(eta) * half + w * (w.dot(eta) * quarter)).into()
     }
 
-    /// One Newton step of the polar decomposition, $R \leftarrow \frac12 R\,(3 I - R^T R)$.
+    /// One Newton step of the polar decomposition, $R \leftarrow \frac12 R (3 I - R^T R)$.
     #[inline(always)]
     fn normalize(&mut self) {
         let r = self.matrix;

@@ -9,7 +9,7 @@ const TERMS: u32 = 9;
 
 /// $c_1, \dots, c_6$ at $x = \theta^2 \ge 0$, $c_k(x) = \sum_i \frac{(-x)^i}{(k + 2i)!}$.
 ///
-/// $c_1 = \sin\theta/\theta$, $c_2 = (1 - \cos\theta)/\theta^2$ and $c_k = 1/k! - x\,c_{k+2}$. They are entire,
+/// $c_1 = \sin\theta/\theta$, $c_2 = (1 - \cos\theta)/\theta^2$ and $c_k = 1/k! - x c_{k+2}$. They are entire,
 /// so their derivatives exist at zero; the textbook quotients lose all digits there.
 #[inline(always)]
 pub(crate) fn stumpff<S: Scalar>(x: S) -> [S; 6] {

@@ -47,7 +47,7 @@ impl<S: Scalar> Vec3<S> {
         Mat3([[o, -z, y], [z, o, -x], [-y, x, o]])
     }
 
-    /// $x\, y^T$.
+    /// $x y^T$.
     #[inline(always)]
     pub fn outer(self, y: Self) -> Mat3<S> {
         Mat3(self.0.map(|x| (y * x).0))

@@ -47,7 +47,7 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
         }
     }
 
-    /// $x \leftarrow x + a\,y$.
+    /// $x \leftarrow x + a y$.
     #[inline(always)]
     fn add_scaled(&mut self, a: Self::Scalar, y: &Self) {
         for i in 0..self.dim() {
@@ -55,7 +55,7 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
         }
     }
 
-    /// Sets this vector to $x + a\,y$, in place.
+    /// Sets this vector to $x + a y$, in place.
     #[inline(always)]
     fn set_sum(&mut self, x: &Self, a: Self::Scalar, y: &Self) {
         for i in 0..self.dim() {
@@ -223,7 +223,7 @@ coordinate_vector! {
 }
 
 coordinate_vector! {
-    /// An element of the dual $\mathfrak g^*$ in the dual coordinates: a momentum $\mu$.
+    /// An element of the dual $\mathfrak g^\ast$ in the dual coordinates: a momentum $\mu$.
     Cotangent
 }
 

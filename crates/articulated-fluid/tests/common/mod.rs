@@ -242,10 +242,10 @@ pub fn hessian(model: &ArticulatedBody, g: &Configuration, xi: &Velocity) -> Mat
                 moved.set(i, moved.get(i) + J2::constant(x));
             }
             let value = Lagrangian::value::<J2>(model, &lifted, &moved);
-            for i in row..dim.min(row + JET_DIRECTIONS) {
-                for k in column..dim.min(column + JET_DIRECTIONS) {
-                    out[i][k] = value.partial(i - row).partial(k - column);
-                }
+            for (d, entries) in out[row..].iter_mut().take(JET_DIRECTIONS).enumerate() {
+                let entries = entries[column..].iter_mut().take(JET_DIRECTIONS);
+                let slope = value.partial(d);
+                entries.enumerate().for_each(|(e, x)| *x = slope.partial(e));
             }
         }
     }

@@ -123,7 +123,7 @@ where
 
 type JetOf<G> = <<G as LieGroup>::Scalar as Scalar>::Jet;
 
-/// $\xi + s\,\eta$ with the dual variable $s$ at zero.
+/// $\xi + s \eta$ with the dual variable $s$ at zero.
 fn line<G>(shape: &G, xi: &G::Algebra, eta: &G::Algebra) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
 where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,

@@ -67,8 +67,8 @@ pub enum LawError {
 /// The momenta are made from the velocities.
 ///
 /// Checked: the group axioms; $\exp$, $\log$ and the Cayley map with their inverses; $\mathrm{Ad}$ a homomorphism,
-/// $\mathrm{ad}$ its derivative, antisymmetry and the Jacobi identity; the pairings that define $\mathrm{Ad}^*$ and
-/// $\mathrm{ad}^*$; left- and right-trivialised differentials of both retractions and their inverses, against dual
+/// $\mathrm{ad}$ its derivative, antisymmetry and the Jacobi identity; the pairings that define $\mathrm{Ad}^\ast$ and
+/// $\mathrm{ad}^\ast$; left- and right-trivialised differentials of both retractions and their inverses, against dual
 /// numbers and against central differences; the `*_into` forms against the plain ones.
 ///
 /// Tolerances: `300 eps` times the sizes of the operands, and `eps^(2/3)` in place of `eps` for central differences.

@@ -79,6 +79,9 @@ pub(super) fn encode_png(pixels: &[u8], (w, h): (u32, u32)) -> Result<Vec<u8>, F
     let mut encoder = png::Encoder::new(&mut file, w, h);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
+    // Large flat areas: runs of equal bytes compress best as they are.
+    encoder.set_filter(png::FilterType::NoFilter);
+    encoder.set_compression(png::Compression::Best);
     let mut writer = encoder.write_header().map_err(FigureError::draw)?;
     writer.write_image_data(pixels).map_err(FigureError::draw)?;
     writer.finish().map_err(FigureError::draw)?;

@@ -1,0 +1,130 @@
+//! The times of a run: counted, not summed.
+
+use thiserror::Error;
+
+use super::print::decimal;
+
+/// More steps than this are taken for a slip: a day of computing and more.
+const MAX_STEPS: f64 = 1e11;
+
+/// What rounding does to the quotient of two durations, relative, with room to spare.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// A run from 0 to `until` seconds in equal steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    /// The time of the last step's end, s.
+    pub until: f64,
+    /// The number of steps, at least one.
+    pub steps: u64,
+    /// The step that was asked for, s; the step taken is no longer.
+    pub asked: f64,
+}
+
+/// A run of absurdly many steps.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error(
+    "{} s in steps of {} s are {count:.1e} steps, more than {MAX_STEPS:.0e}; take a longer --step or a shorter --until",
+    decimal(*until), decimal(*step)
+)]
+pub struct TooManySteps {
+    /// The time to run to, s.
+    pub until: f64,
+    /// The step, s.
+    pub step: f64,
+    /// How many steps that would be.
+    pub count: f64,
+}
+
+impl Clock {
+    /// The fewest equal steps, none longer than `step`, that end at `until`.
+    pub fn new(until: f64, step: f64) -> Result<Self, TooManySteps> {
+        let ratio = until / step;
+        let nearest = ratio.round();
+        let whole = (ratio - nearest).abs() <= ROUNDING * ratio;
+        let count = if whole { nearest } else { ratio.ceil() }.max(1.0);
+        if count > MAX_STEPS {
+            return Err(TooManySteps { until, step, count });
+        }
+        Ok(Self {
+            until,
+            steps: count as u64,
+            asked: step,
+        })
+    }
+
+    /// The step taken, s.
+    pub fn step(&self) -> f64 {
+        self.until / self.steps as f64
+    }
+
+    /// Whether the step taken is shorter than the one asked for, by more than rounding.
+    pub fn is_adjusted(&self) -> bool {
+        (self.step() - self.asked).abs() > 2.0 * ROUNDING * self.asked
+    }
+
+    /// The time after `done` steps, s.
+    pub fn time(&self, done: u64) -> f64 {
+        if done == self.steps {
+            return self.until;
+        }
+        let (done, steps) = (done as f64, self.steps as f64);
+        let product = done * self.until;
+        if product.is_finite() {
+            product / steps
+        } else {
+            done / steps * self.until
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn steps(until: f64, step: f64) -> u64 {
+        Clock::new(until, step).unwrap().steps
+    }
+
+    #[test]
+    fn rounding_adds_no_step() {
+        assert_eq!(steps(100.0, 0.001), 100_000);
+        assert_eq!(steps(0.3, 0.1), 3);
+        assert_eq!(steps(0.7, 0.1), 7);
+        assert_eq!(steps(1e6, 1e-4), 10_000_000_000);
+        for n in 1..=10_000_u64 {
+            let until = n as f64 * 0.001;
+            assert_eq!(steps(until, 0.001), n);
+            assert!(!Clock::new(until, 0.001).unwrap().is_adjusted());
+        }
+    }
+
+    #[test]
+    fn the_step_shrinks_to_meet_the_end() {
+        let clock = Clock::new(1.0, 0.3).unwrap();
+        assert_eq!((clock.steps, clock.step()), (4, 0.25));
+        assert!(clock.is_adjusted());
+        let clock = Clock::new(0.5, 2.0).unwrap();
+        assert_eq!((clock.steps, clock.step()), (1, 0.5));
+        assert_eq!(steps(1e-320, 1.0), 1);
+    }
+
+    #[test]
+    fn the_last_time_is_exact() {
+        for until in [0.1, 0.7, 1.1, 49.3, 1e308] {
+            for n in [3, 7, 49, 1000] {
+                let clock = Clock::new(until, until / f64::from(n)).unwrap();
+                assert_eq!(clock.time(clock.steps), until);
+                assert!(clock.time(clock.steps - 1) < until);
+                assert_eq!(clock.time(0), 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn absurd_counts_are_refused() {
+        assert!(Clock::new(1e9, 1e-9).is_err());
+        assert!(Clock::new(1e300, 1e-300).is_err());
+        assert!(Clock::new(1e8, 1e-3).is_ok());
+    }
+}

@@ -1,0 +1,60 @@
+//! What can stop a command, and the exit code that says so.
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use articulated_fluid::{ModelError, SceneError};
+use dvi::StepError;
+use thiserror::Error;
+
+use super::clock::TooManySteps;
+use super::output::OutputError;
+
+/// The exit code of a run or a write that failed.
+const FAILURE: u8 = 1;
+/// The exit code of bad arguments and bad scenes.
+pub const USAGE: u8 = 2;
+/// What a shell adds to the number of the signal that ended a command.
+const SIGNALLED: usize = 128;
+
+/// Why a command did not do what it was asked.
+#[derive(Debug, Error)]
+pub enum CliError {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error("{file}: {source}")]
+    Model { file: String, source: ModelError },
+    #[error(transparent)]
+    TooManySteps(#[from] TooManySteps),
+    #[error("--out {} is the scene itself; give the CSV file another name", .0.display())]
+    OutputIsScene(PathBuf),
+    #[error("--out {}: {source}", path.display())]
+    Output { path: PathBuf, source: OutputError },
+    #[error(transparent)]
+    Step(#[from] StepError),
+    #[error(
+        "at t = {t} s the energy or a momentum is too large for a number; check the scene's velocities and inertia"
+    )]
+    NotFinite { t: f64 },
+    #[error("interrupted at t = {t} s; nothing was written")]
+    Interrupted { t: f64, signal: usize },
+    #[error("signals cannot be handled: {0}")]
+    Signals(#[source] io::Error),
+    #[error("stdout cannot be written: {0}")]
+    Stdout(#[source] io::Error),
+}
+
+impl CliError {
+    /// The exit code that tells this error's kind.
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Scene(_)
+            | Self::Model { .. }
+            | Self::TooManySteps(_)
+            | Self::OutputIsScene(_) => USAGE,
+            Self::Interrupted { signal, .. } => u8::try_from(SIGNALLED + signal).unwrap_or(FAILURE),
+            _ => FAILURE,
+        })
+    }
+}

@@ -1,0 +1,40 @@
+//! Signals that end a run, so that it can clean up after itself.
+
+use std::io;
+use std::sync::Arc;
+#[cfg(unix)]
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+
+/// Remembers that the user wants the command to end.
+pub struct Interrupt {
+    signal: Arc<AtomicUsize>,
+}
+
+impl Interrupt {
+    /// Listens to the interrupt key and to requests to terminate, from now on.
+    pub fn listen() -> io::Result<Self> {
+        let signal = Arc::new(AtomicUsize::new(0));
+        for number in [SIGINT, SIGTERM] {
+            flag::register_usize(number, signal.clone(), number.unsigned_abs() as usize)?;
+        }
+        // A file over the size limit is then a failed write.
+        #[cfg(unix)]
+        flag::register(
+            signal_hook::consts::SIGXFSZ,
+            Arc::new(AtomicBool::new(false)),
+        )?;
+        Ok(Self { signal })
+    }
+
+    /// The number of the signal that came, if one did.
+    pub fn signal(&self) -> Option<usize> {
+        match self.signal.load(Ordering::Relaxed) {
+            0 => None,
+            signal => Some(signal),
+        }
+    }
+}

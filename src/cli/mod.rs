@@ -1,0 +1,72 @@
+//! The command line: a module for each command, and what they share.
+
+mod args;
+mod clock;
+mod error;
+mod interrupt;
+mod output;
+mod print;
+mod run;
+mod sample;
+mod scene;
+mod summary;
+mod table;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use error::CliError;
+
+const AFTER_HELP: &str = "\
+Examples:
+  lgvi run                              the built-in scene for 100 s
+  lgvi run --until 10 --out fish.csv    10 s of it, with the trajectory
+  lgvi run boat.toml --step 0.01        a scene of one's own
+  lgvi run --help                       options, CSV columns, keys of a scene";
+
+/// Lie group variational integrators for rigid bodies on ball joints in a perfect fluid.
+///
+/// The motion is computed on the group of its configurations, so that rotations stay rotations, momenta stay
+/// constant to rounding, and the energy error stays bounded. A scene is a TOML file; one is built in.
+#[derive(Parser)]
+#[command(name = "lgvi", version, arg_required_else_help = true, max_term_width = 100, after_help = AFTER_HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Run(run::Args),
+}
+
+impl Command {
+    fn execute(&self) -> Result<(), CliError> {
+        match self {
+            Self::Run(args) => run::execute(args),
+        }
+    }
+}
+
+/// Runs the command that the arguments ask for; its errors go to stderr and make the exit code.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(answer) => {
+            // Help that nobody reads to its end is no failure.
+            let _ = answer.print();
+            return match answer.use_stderr() {
+                true => ExitCode::from(error::USAGE),
+                false => ExitCode::SUCCESS,
+            };
+        }
+    };
+    match cli.command.execute() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            print::error(&error);
+            error.exit_code()
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! What a run is judged by: the conserved quantities, and how far they stray.
+
+use articulated_fluid::{ArticulatedBody, Configuration};
+use dvi::State;
+use lie::{SO3, Vec3};
+
+/// What the motion keeps, at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// s.
+    pub t: f64,
+    /// J.
+    pub energy: f64,
+    /// kg m/s.
+    pub linear: Vec3,
+    /// kg m²/s.
+    pub angular: Vec3,
+    /// The largest $\lVert I - R^T R \rVert_F$ over the bodies.
+    pub orthogonality: f64,
+}
+
+impl Sample {
+    /// The sample of a state; `None` where a quantity is not finite.
+    pub fn take(model: &ArticulatedBody, state: &State<Configuration>) -> Option<Self> {
+        let kept = model.conserved(state).ok()?;
+        let errors = attitudes(&state.g).map(SO3::orthogonality_error);
+        let sample = Self {
+            t: state.t,
+            energy: kept.energy,
+            linear: kept.linear,
+            angular: kept.angular,
+            orthogonality: errors.fold(0.0, f64::max),
+        };
+        let norms = sample.energy + sample.linear.norm() + sample.angular.norm();
+        norms.is_finite().then_some(sample)
+    }
+}
+
+/// The bodies' attitudes, the head's first.
+pub fn attitudes(g: &Configuration) -> impl Iterator<Item = &SO3> {
+    core::iter::once(&g.0).chain(g.2.iter())
+}
+
+/// The worst of the samples so far, against the first.
+#[derive(Clone, Copy, Debug)]
+pub struct Watch {
+    start: Sample,
+    count: u64,
+    energy: f64,
+    linear: f64,
+    angular: f64,
+    orthogonality: f64,
+    trend: Trend,
+}
+
+impl Watch {
+    /// Begins with the sample at t = 0.
+    pub fn new(start: Sample) -> Self {
+        let mut watch = Self {
+            start,
+            count: 0,
+            energy: 0.0,
+            linear: 0.0,
+            angular: 0.0,
+            orthogonality: 0.0,
+            trend: Trend::default(),
+        };
+        watch.add(&start);
+        watch
+    }
+
+    /// Takes another sample into account.
+    pub fn add(&mut self, sample: &Sample) {
+        let change = sample.energy - self.start.energy;
+        self.count += 1;
+        self.energy = self.energy.max(change.abs());
+        self.linear = self.linear.max((sample.linear - self.start.linear).norm());
+        self.angular = self
+            .angular
+            .max((sample.angular - self.start.angular).norm());
+        self.orthogonality = self.orthogonality.max(sample.orthogonality);
+        self.trend.add(sample.t, change);
+    }
+
+    /// The number of samples.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The energy at the start, J.
+    pub fn initial_energy(&self) -> f64 {
+        self.start.energy
+    }
+
+    /// The largest error of the energy relative to the start; `None` where the start is zero and the error is not.
+    pub fn energy_relative(&self) -> Option<f64> {
+        relative(self.energy, self.start.energy)
+    }
+
+    /// The slope of the energy's relative error by least squares, 1/s.
+    pub fn energy_slope(&self) -> Option<f64> {
+        relative(self.trend.slope(), self.start.energy)
+    }
+
+    /// The largest deviation of the linear momentum, kg m/s.
+    pub fn linear(&self) -> f64 {
+        self.linear
+    }
+
+    /// The largest deviation of the angular momentum, kg m²/s.
+    pub fn angular(&self) -> f64 {
+        self.angular
+    }
+
+    /// The same relative to the start.
+    pub fn angular_relative(&self) -> Option<f64> {
+        relative(self.angular, self.start.angular.norm())
+    }
+
+    /// The largest orthogonality error.
+    pub fn orthogonality(&self) -> f64 {
+        self.orthogonality
+    }
+}
+
+fn relative(change: f64, start: f64) -> Option<f64> {
+    if change == 0.0 {
+        return Some(0.0);
+    }
+    Some(change / start).filter(|ratio| ratio.is_finite())
+}
+
+/// A straight line through points, by least squares about their running means.
+#[derive(Clone, Copy, Debug, Default)]
+struct Trend {
+    count: f64,
+    mean_t: f64,
+    mean_y: f64,
+    tt: f64,
+    ty: f64,
+}
+
+impl Trend {
+    fn add(&mut self, t: f64, y: f64) {
+        self.count += 1.0;
+        let dt = t - self.mean_t;
+        self.mean_t += dt / self.count;
+        self.mean_y += (y - self.mean_y) / self.count;
+        self.tt += dt * (t - self.mean_t);
+        self.ty += dt * (y - self.mean_y);
+    }
+
+    fn slope(&self) -> f64 {
+        if self.tt > 0.0 {
+            self.ty / self.tt
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_has_its_slope() {
+        let mut trend = Trend::default();
+        assert_eq!(trend.slope(), 0.0);
+        for k in 0..1000 {
+            let t = 100.0 + 0.1 * f64::from(k);
+            trend.add(t, 7.0 - 0.25 * t);
+        }
+        assert!((trend.slope() + 0.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_change_from_nothing_has_no_relative_size() {
+        assert_eq!(relative(0.0, 0.0), Some(0.0));
+        assert_eq!(relative(1e-18, 0.0), None);
+        assert_eq!(relative(1.0, 4.0), Some(0.25));
+    }
+}

@@ -1,0 +1,46 @@
+//! After the first step, no step allocates: with the model's inertia, and with everything from the value alone.
+
+mod common;
+
+use allocation_counter::measure;
+use articulated_fluid::OnSe3;
+use common::paper;
+use dvi::{Integrator, State, Variational};
+use lgvi::{articulated_fluid, dvi};
+
+fn allocations<I: Integrator>(mut integrator: I, mut state: State<I::Group>) -> u64 {
+    integrator.step(&mut state, 1e-3).unwrap();
+    let steps = measure(|| {
+        for _ in 0..1000 {
+            integrator.step(&mut state, 1e-3).unwrap();
+        }
+        // Another step size renews the matrix, in the same storage.
+        integrator.step(&mut state, 2e-3).unwrap();
+    });
+    steps.count_total
+}
+
+#[test]
+fn steps_do_not_allocate() {
+    let (model, start) = paper();
+    assert_eq!(
+        allocations(Variational::with_inertia(model.clone()), start.clone()),
+        0
+    );
+    assert_eq!(
+        allocations(Variational::new(model.clone()), start.clone()),
+        0
+    );
+    assert_eq!(
+        allocations(Variational::new(OnSe3(model)), OnSe3::from_direct(&start)),
+        0
+    );
+}
+
+#[test]
+fn the_counter_counts() {
+    assert_eq!(
+        measure(|| drop(std::hint::black_box(vec![1]))).count_total,
+        1
+    );
+}

@@ -1,0 +1,448 @@
+//! The command as its users run it.
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const SCENE: &str = include_str!("../scenes/fish-chain.toml");
+const BODIES: [&str; 3] = ["head", "tail-1", "tail-2"];
+
+fn command(directory: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lgvi"));
+    command.current_dir(directory).args(args);
+    command
+}
+
+fn lgvi(directory: &Path, args: &[&str]) -> Output {
+    command(directory, args).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+fn directory() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn files(directory: &Path) -> Vec<String> {
+    let name = |entry: std::io::Result<fs::DirEntry>| entry.unwrap().file_name();
+    let names = fs::read_dir(directory).unwrap().map(name);
+    let mut names: Vec<_> = names.map(|name| name.into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// Runs in an empty directory; the run ends with `code`, says all of `words`, and leaves no file.
+#[track_caller]
+fn fails(args: &[&str], code: i32, words: &[&str]) {
+    let directory = directory();
+    let output = lgvi(directory.path(), args);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {message}");
+    assert!(message.starts_with("error: "), "{args:?}: {message}");
+    for word in words {
+        assert!(message.contains(word), "{args:?}: {word:?}: {message}");
+    }
+    assert_eq!(text(&output.stdout), "", "{args:?}");
+    assert_eq!(files(directory.path()), [""; 0], "{args:?}");
+}
+
+/// Runs a scene; it is refused with all of `words`.
+#[track_caller]
+fn refuses(scene: &str, words: &[&str]) {
+    let directory = directory();
+    fs::write(directory.path().join("s.toml"), scene).unwrap();
+    let args = ["run", "s.toml", "--until", "1", "--out", "a.csv"];
+    let output = lgvi(directory.path(), &args);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.starts_with("error: s.toml:"), "{message}");
+    for word in words {
+        assert!(message.contains(word), "{word:?}: {message}");
+    }
+    assert_eq!(files(directory.path()), ["s.toml"]);
+}
+
+/// The header and the rows of a CSV file.
+fn table(path: &Path) -> (Vec<String>, Vec<Vec<String>>) {
+    let text = fs::read_to_string(path).unwrap();
+    assert!(text.ends_with('\n'));
+    let split = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let mut lines = text.lines().map(split);
+    (lines.next().unwrap(), lines.collect())
+}
+
+fn numbers(row: &[String]) -> Vec<f64> {
+    row.iter().map(|field| field.parse().unwrap()).collect()
+}
+
+fn json(directory: &Path, args: &[&str]) -> Value {
+    let output = lgvi(directory, args);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn expected_header() -> Vec<String> {
+    let columns = ["qw", "qx", "qy", "qz", "wx", "wy", "wz"];
+    let body = |body| columns.map(|column| format!("{body}.{column}"));
+    let last = "energy,px,py,pz,lx,ly,lz,orthogonality";
+    let ends = |text: &'static str| text.split(',').map(str::to_owned);
+    let bodies = BODIES.into_iter().flat_map(body);
+    ends("t,x,y,z").chain(bodies).chain(ends(last)).collect()
+}
+
+#[test]
+fn the_built_in_scene_gives_a_table_and_a_summary() {
+    let directory = directory();
+    let args = ["run", "--until", "2", "--out", "fish.csv"];
+    let output = lgvi(directory.path(), &args);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(text(&output.stderr), "");
+    let summary = text(&output.stdout);
+    for word in [
+        "three ellipsoids",
+        "2000",
+        "0.001 s",
+        "fish.csv",
+        "time per step",
+    ] {
+        assert!(summary.contains(word), "{word}: {summary}");
+    }
+    assert!(!summary.contains("as asked"), "{summary}");
+    assert_eq!(files(directory.path()), ["fish.csv"]);
+
+    let (header, rows) = table(&directory.path().join("fish.csv"));
+    assert_eq!(header, expected_header());
+    assert_eq!(rows.len(), 201);
+    assert_eq!(numbers(&rows[0])[0], 0.0);
+    assert_eq!(numbers(&rows[1])[0], 0.01);
+    assert_eq!(numbers(&rows[200])[0], 2.0);
+    assert!(rows.iter().all(|row| row.len() == header.len()));
+}
+
+#[test]
+fn the_start_is_the_scene_s() {
+    let directory = directory();
+    lgvi(
+        directory.path(),
+        &["run", "--until", "0.01", "--out", "a.csv"],
+    );
+    let (header, rows) = table(&directory.path().join("a.csv"));
+    let first = numbers(&rows[0]);
+    let at = |name: &str| first[header.iter().position(|column| column == name).unwrap()];
+    for (name, value) in [
+        ("x", 0.0),
+        ("head.qw", 1.0),
+        ("head.wz", 0.5),
+        ("tail-1.wy", -0.3),
+        ("tail-2.wz", -0.6),
+        ("energy", 9.203_817_003_436),
+        ("py", -1.1316e-4),
+        ("lz", 51.545_892),
+    ] {
+        assert!((at(name) - value).abs() < 1e-7, "{name}: {}", at(name));
+    }
+}
+
+#[test]
+fn the_table_is_physical_and_has_all_digits() {
+    let directory = directory();
+    lgvi(
+        directory.path(),
+        &["run", "--until", "20", "--out", "a.csv"],
+    );
+    let (header, rows) = table(&directory.path().join("a.csv"));
+    let digits = |field: &String| {
+        field
+            .split('e')
+            .next()
+            .unwrap()
+            .replace(['-', '.'], "")
+            .len()
+    };
+    assert!(rows.iter().flatten().all(|field| digits(field) == 17));
+
+    let rows: Vec<_> = rows.iter().map(|row| numbers(row)).collect();
+    let column = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let (energy, start) = (column("energy"), rows[0][column("energy")]);
+    let error = |row: &Vec<f64>| (row[energy] / start - 1.0).abs();
+    assert!(rows.iter().map(error).fold(0.0, f64::max) < 1e-3);
+    assert!(rows.iter().all(|row| row[column("orthogonality")] < 1e-13));
+    for body in BODIES {
+        let q = column(&format!("{body}.qw"));
+        let length = |row: &Vec<f64>| row[q..q + 4].iter().map(|x| x * x).sum::<f64>();
+        assert!(rows.iter().all(|row| (length(row) - 1.0).abs() < 1e-13));
+        for pair in rows.windows(2) {
+            let jump = (q..q + 4).map(|i| (pair[1][i] - pair[0][i]).abs());
+            assert!(jump.fold(0.0, f64::max) < 0.1, "{body}");
+        }
+    }
+}
+
+#[test]
+fn the_end_is_sampled_whatever_the_interval() {
+    let directory = directory();
+    let path = directory.path();
+    lgvi(
+        path,
+        &["run", "--until", "0.25", "--every", "100", "--out", "a.csv"],
+    );
+    let (_, rows) = table(&path.join("a.csv"));
+    let times: Vec<f64> = rows.iter().map(|row| numbers(row)[0]).collect();
+    assert_eq!(times, [0.0, 0.1, 0.2, 0.25]);
+
+    let every = u64::MAX.to_string();
+    lgvi(
+        path,
+        &[
+            "run", "--until", "0.25", "--every", &every, "--out", "a.csv",
+        ],
+    );
+    assert_eq!(table(&path.join("a.csv")).1.len(), 2);
+}
+
+#[test]
+fn the_summary_as_json() {
+    let directory = directory();
+    let summary = json(directory.path(), &["run", "--until", "5", "--json"]);
+    let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key}"));
+    assert_eq!(number("bodies"), 3.0);
+    assert_eq!(number("steps"), 5000.0);
+    assert_eq!(number("step_seconds"), 0.001);
+    assert_eq!(number("until_seconds"), 5.0);
+    assert_eq!(number("samples"), 501.0);
+    assert_eq!(number("sample_every_steps"), 10.0);
+    assert_eq!(number("method_order"), 1.0);
+    assert!((number("energy_initial_joules") - 9.203_817_003_436).abs() < 1e-9);
+    for (key, least, most) in [
+        ("time_per_step_us", 1e-3, 1e5),
+        ("energy_error_max_relative", 1e-9, 1e-3),
+        ("energy_slope_per_second", -1e-3, 1e-3),
+        ("linear_momentum_deviation_max", 0.0, 1e-15),
+        ("angular_momentum_deviation_max", 0.0, 1e-11),
+        ("angular_momentum_deviation_max_relative", 0.0, 1e-12),
+        ("orthogonality_error_max", 0.0, 1e-13),
+        ("solver_residual_max", 0.0, 1e-13),
+        ("solver_iterations_max", 1.0, 60.0),
+        ("solver_iterations_mean", 1.0, 10.0),
+    ] {
+        let value = number(key);
+        assert!((least..=most).contains(&value), "{key}: {value}");
+    }
+    assert!(summary["csv"].is_null());
+    assert!(summary["method"].as_str().unwrap().contains("variational"));
+}
+
+#[test]
+fn the_step_shrinks_where_it_does_not_divide_the_time() {
+    let directory = directory();
+    let args = ["run", "--until", "1", "--step", "0.003", "--out", "a.csv"];
+    let output = lgvi(directory.path(), &args);
+    let summary = text(&output.stdout);
+    assert!(summary.contains("not 0.003 s as asked"), "{summary}");
+    let (_, rows) = table(&directory.path().join("a.csv"));
+    assert_eq!(numbers(rows.last().unwrap())[0], 1.0);
+
+    let args = ["run", "--until", "1", "--step", "0.003", "--json"];
+    let summary = json(directory.path(), &args);
+    assert_eq!(summary["steps"], 334);
+    assert_eq!(summary["step_seconds"], 1.0 / 334.0);
+    assert_eq!(summary["step_asked_seconds"], 0.003);
+}
+
+#[test]
+fn scenes_from_files() {
+    let directory = directory();
+    let rest = "[fluid]\ndensity = 1000\n[[body]]\nname = 'b'\nsemi_axes = [2, 1, 0.5]\n";
+    fs::write(directory.path().join("rest.toml"), rest).unwrap();
+    let summary = json(
+        directory.path(),
+        &["run", "rest.toml", "--until", "1", "--json"],
+    );
+    assert_eq!(summary["scene"], "rest.toml");
+    assert!(summary["title"].is_null());
+    assert_eq!(summary["bodies"], 1);
+    assert_eq!(summary["energy_error_max_relative"], 0.0);
+    assert_eq!(summary["energy_slope_per_second"], 0.0);
+}
+
+#[test]
+fn bad_numbers_are_refused() {
+    for value in ["0", "-1", "nan", "inf", "-inf", "soon"] {
+        let words = [value, "expected a finite number > 0, in seconds"];
+        for option in ["--step", "--until"] {
+            let args = ["run", option, value, "--out", "a.csv"];
+            fails(&args, 2, &[&words[..], &[option]].concat());
+        }
+    }
+    for value in ["0", "-3", "1.5"] {
+        let args = ["run", "--every", value, "--out", "a.csv"];
+        fails(&args, 2, &["--every", "expected a whole number >= 1"]);
+    }
+}
+
+#[test]
+fn absurdly_many_steps_are_refused() {
+    let words = ["steps", "--step", "--until"];
+    fails(&["run", "--step", "1e-20", "--out", "a.csv"], 2, &words);
+    fails(&["run", "--until", "1e300", "--out", "a.csv"], 2, &words);
+}
+
+#[test]
+fn unknown_arguments_are_refused() {
+    fails(&["run", "--untill", "3"], 2, &["--untill", "--until"]);
+    fails(&["ran"], 2, &["ran"]);
+}
+
+#[test]
+fn unwritable_outputs_are_found_before_the_run() {
+    // Long enough to be noticed if it ran first.
+    let run = |out| ["run", "--until", "1e8", "--out", out];
+    fails(
+        &run("no/a.csv"),
+        1,
+        &["--out no/a.csv", "directory that exists"],
+    );
+    fails(&run("."), 1, &["directory", "name of a file"]);
+    fails(&run("new/"), 1, &["directory", "name of a file"]);
+    let long = format!("{}.csv", "a".repeat(300));
+    fails(&run(&long), 1, &["another name"]);
+    #[cfg(unix)]
+    fails(&run("/dev/null"), 1, &["no ordinary file"]);
+}
+
+#[test]
+fn an_output_is_not_written_over_its_scene() {
+    let directory = directory();
+    let path = directory.path().join("s.toml");
+    fs::write(&path, SCENE).unwrap();
+    let args = ["run", "s.toml", "--until", "1", "--out", "./s.toml"];
+    assert_eq!(lgvi(directory.path(), &args).status.code(), Some(2));
+    assert_eq!(fs::read_to_string(path).unwrap(), SCENE);
+}
+
+#[test]
+fn bad_scenes_are_refused() {
+    let ellipsoid = include_str!("../scenes/one-ellipsoid.toml");
+    let negative = ellipsoid.replace("[0.5, 0.2, 0.3]", "[0.5, -0.2, 0.3]");
+    refuses(&negative, &["body.semi_axes", "-0.2", "> 0"]);
+    let nan = SCENE.replace("[0, -0.4142, -0.59]", "[0, nan, -0.59]");
+    refuses(&nan, &["start.velocity", "NaN", "finite"]);
+    let unknown = SCENE.replace("angular_velocity", "angular_speed");
+    refuses(
+        &unknown,
+        &["angular_speed", "unknown key", "angular_velocity"],
+    );
+    let joint = SCENE.replace("child = \"tail-2\"", "child = \"tail-3\"");
+    refuses(&joint, &["joint.child", "tail-3"]);
+    refuses("[fluid", &["s.toml:1:"]);
+    fails(
+        &["run", "nothing.toml"],
+        2,
+        &["nothing.toml", "cannot be read"],
+    );
+}
+
+#[test]
+fn a_step_that_fails_leaves_the_old_table() {
+    let words = ["step 0 at t = 0 s", "no solution for h = 5 s", "try a step"];
+    fails(&["run", "--step", "5", "--out", "a.csv"], 1, &words);
+
+    let directory = directory();
+    let path = directory.path().join("a.csv");
+    fs::write(&path, "old").unwrap();
+    let args = ["run", "--step", "5", "--out", "a.csv"];
+    assert_eq!(lgvi(directory.path(), &args).status.code(), Some(1));
+    assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    assert_eq!(files(directory.path()), ["a.csv"]);
+
+    let args = ["run", "--until", "0.01", "--out", "a.csv"];
+    assert_eq!(lgvi(directory.path(), &args).status.code(), Some(0));
+    assert_eq!(table(&path).1.len(), 2);
+}
+
+#[test]
+fn velocities_beyond_all_numbers_are_a_typed_failure() {
+    let directory = directory();
+    let scene = SCENE.replace("[0.2, 0.1, 0.5]", "[1e200, 0.1, 0.5]");
+    fs::write(directory.path().join("s.toml"), scene).unwrap();
+    let output = lgvi(directory.path(), &["run", "s.toml", "--out", "a.csv"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("too large"));
+    assert_eq!(files(directory.path()), ["s.toml"]);
+}
+
+#[test]
+fn help_tells_keys_columns_and_exit_codes() {
+    let directory = directory();
+    let output = lgvi(directory.path(), &["run", "--help"]);
+    assert_eq!(output.status.code(), Some(0));
+    let help = text(&output.stdout);
+    for word in [
+        "fluid.density: a finite number >= 0, in kg/m^3",
+        "NAME.qw",
+        "Exit codes",
+        "Examples",
+        "--every",
+    ] {
+        assert!(help.contains(word), "{word}: {help}");
+    }
+    assert!(text(&lgvi(directory.path(), &["--help"]).stdout).contains("lgvi run"));
+    let version = lgvi(directory.path(), &["--version"]);
+    let expected = concat!("lgvi ", env!("CARGO_PKG_VERSION"), "\n");
+    assert_eq!(text(&version.stdout), expected);
+    assert_eq!(lgvi(directory.path(), &[]).status.code(), Some(2));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let directory = directory();
+    for args in [
+        &["run", "--until", "0.01"][..],
+        &["run", "--until", "0.01", "--json"],
+        &["run", "--help"],
+    ] {
+        let mut child = command(directory.path(), args)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{args:?}");
+        assert_eq!(text(&output.stderr), "");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_nothing() {
+    use std::{thread::sleep, time::Duration};
+    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+        let directory = directory();
+        let args = ["run", "--until", "1e6", "--every", "1000", "--out", "a.csv"];
+        let child = command(directory.path(), &args)
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // The file in the making tells that the run has begun.
+        for _ in 0..1000 {
+            if !files(directory.path()).is_empty() {
+                break;
+            }
+            sleep(Duration::from_millis(10));
+        }
+        let id = child.id().to_string();
+        let kill = Command::new("kill").args([signal, &id]).status().unwrap();
+        assert!(kill.success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(code));
+        assert!(text(&output.stderr).contains("interrupted at t ="));
+        assert_eq!(files(directory.path()), [""; 0]);
+    }
+}
