@@ -135,7 +135,14 @@ impl Inertia for ArticulatedBody {
 
     /// (31) $= p_x$, solved for $\Delta x$.
     #[inline(always)]
-    fn eliminate(&self, factor: &Factor, mu: &Momentum<f64>, h: f64, f: &mut Configuration) {
+    fn eliminate(
+        &self,
+        factor: &Factor,
+        mu: &Momentum<f64>,
+        h: f64,
+        f: &mut Configuration,
+        c: &mut Velocity<f64>,
+    ) {
         let (f0, dx, f) = f;
         let e0 = f0.minus_identity();
         let mut rest = factor.r0.inverse_rotate(mu.1.vec3()) * h;
@@ -143,6 +150,7 @@ impl Inertia for ArticulatedBody {
             let moved = c.transpose_mul(e0 * tail.on_head) - f.minus_identity() * tail.on_tail;
             rest -= *c * (tail.m * moved);
         }
-        *dx = factor.r0.rotate(factor.total_mass_inverse * rest).into();
+        let solved = factor.r0.rotate(factor.total_mass_inverse * rest);
+        (*dx, c.1) = (solved.into(), solved.into());
     }
 }

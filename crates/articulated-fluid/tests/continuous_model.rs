@@ -113,7 +113,9 @@ proptest! {
         let (mut factor, mut f, mu) = (model.factor(), f.clone(), sample.mu());
         model.factorise(g, &mut factor);
         f.1.0 = [f64::NAN; 3];
-        model.eliminate(&factor, &mu, H, &mut f);
+        let mut c = f.zero_algebra();
+        model.eliminate(&factor, &mu, H, &mut f, &mut c);
+        assert_eq!(c.1.vec3(), f.1.vec3(), "element and coordinates agree");
         let after = dvi::legendre_plus(model, g, &f, H);
         // Rounding of masses times lengths up to 1e2, over H.
         assert_close(&after.1.0, &mu.1.0, 1e-12);

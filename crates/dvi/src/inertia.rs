@@ -1,9 +1,9 @@
 //! Quasi-Newton with the model's own inertia.
 
-use lie::{LieGroup, VectorSpace};
+use lie::{LieGroup, Retraction, VectorSpace};
 
-use crate::DiscreteLagrangian;
 use crate::solver::{Algebra, Dual, StepSolver};
+use crate::{DiscreteLagrangian, Newton};
 
 /// A model that solves its inertia, $\mathbb I(g) \xi = \mu$, faster than a dense matrix does.
 pub trait Inertia: DiscreteLagrangian {
@@ -24,8 +24,8 @@ pub trait Inertia: DiscreteLagrangian {
         xi: &mut <Self::Group as LieGroup>::Algebra,
     );
 
-    /// Solves the equations of the [cyclic](DiscreteLagrangian::cyclic) coordinates exactly: sets those of `f`
-    /// such that $\mathbf D_f L_d = \mu$ in them, for the other coordinates of `f` as given.
+    /// Solves the equations of the [cyclic](DiscreteLagrangian::cyclic) coordinates exactly: sets those of `f`,
+    /// and the same numbers in its coordinates `c`, such that $\mathbf D_f L_d = \mu$ in them, for the other coordinates of `f` as given.
     ///
     /// A model with cyclic coordinates that offers its inertia must implement it.
     fn eliminate(
@@ -34,38 +34,82 @@ pub trait Inertia: DiscreteLagrangian {
         mu: &<Self::Group as LieGroup>::Dual,
         h: f64,
         f: &mut Self::Group,
+        c: &mut <Self::Group as LieGroup>::Algebra,
     );
 }
 
+/// The largest dimension for which the exact matrix, dense, is built where the inertia is not good enough.
+const DENSE_LIMIT: usize = 128;
+
 /// Quasi-Newton with the matrix $\mathbb I(g_k)/h$: one factorisation a step, contraction by a factor of the order of $h |\xi|$.
+///
+/// Where the step is so long that this converges slowly, the rest of the step takes the exact matrix, as [`Newton`] does.
 pub struct FrozenInertia<L: Inertia> {
     factor: L::Factor,
     h: f64,
+    /// Made when first needed.
+    exact: Option<Newton<L::Group>>,
+    takes_exact: bool,
 }
 
 impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
+    /// An exact matrix costs as much as some thirty iterations.
+    const SLOW: f64 = 0.6;
+
     fn allocate(lagrangian: &L, _: &L::Group) -> Self {
         Self {
             factor: lagrangian.factor(),
             h: 0.0,
+            exact: None,
+            takes_exact: false,
         }
+    }
+
+    fn renew<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        g: &L::Group,
+        mu: &Dual<L>,
+        h: f64,
+        c: &Algebra<L>,
+    ) {
+        if c.dim() > DENSE_LIMIT {
+            return;
+        }
+        let exact = self
+            .exact
+            .get_or_insert_with(|| StepSolver::<L>::allocate(lagrangian, g));
+        StepSolver::<L>::renew::<R>(exact, lagrangian, g, mu, h, c);
+        self.takes_exact = true;
     }
 
     #[inline(always)]
     fn begin(&mut self, lagrangian: &L, g: &L::Group, _: &Dual<L>, h: f64) {
         lagrangian.factorise(g, &mut self.factor);
-        self.h = h;
+        (self.h, self.takes_exact) = (h, false);
     }
 
     #[inline(always)]
-    fn eliminate(&self, lagrangian: &L, mu: &Dual<L>, h: f64, f: &mut L::Group) {
-        lagrangian.eliminate(&self.factor, mu, h, f);
+    fn eliminate(
+        &self,
+        lagrangian: &L,
+        mu: &Dual<L>,
+        h: f64,
+        f: &mut L::Group,
+        c: &mut Algebra<L>,
+    ) {
+        lagrangian.eliminate(&self.factor, mu, h, f, c);
     }
 
     #[inline(always)]
     fn solve(&mut self, lagrangian: &L, residual: &Dual<L>, delta: &mut Algebra<L>) {
-        lagrangian.solve(&self.factor, residual, delta);
-        scale(delta, self.h);
+        match &mut self.exact {
+            Some(exact) if self.takes_exact => exact.solve(lagrangian, residual, delta),
+            _ => {
+                lagrangian.solve(&self.factor, residual, delta);
+                scale(delta, self.h);
+            }
+        }
     }
 }
 

@@ -27,6 +27,8 @@ pub struct Newton<G: RealGroup> {
 }
 
 impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
+    const SLOW: f64 = 0.2;
+
     fn allocate(lagrangian: &L, g: &L::Group) -> Self {
         let (dim, cyclic) = (g.zero_dual().dim(), lagrangian.cyclic());
         let g = g.lift::<J>();

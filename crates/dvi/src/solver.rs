@@ -10,14 +10,25 @@ use crate::DiscreteLagrangian;
 ///
 /// [`Newton`](crate::Newton) takes it from dual numbers, [`FrozenInertia`](crate::FrozenInertia) from the model.
 pub trait StepSolver<L: DiscreteLagrangian> {
+    /// A contraction slower than this asks for [`renew`](Self::renew).
+    const SLOW: f64;
+
     /// Storage for groups of the shape of `g`.
     fn allocate(lagrangian: &L, g: &L::Group) -> Self;
 
     /// Prepares the step from $(g, \mu)$ of size `h`.
     fn begin(&mut self, lagrangian: &L, g: &L::Group, mu: &Dual<L>, h: f64);
 
-    /// Solves the equations of the cyclic coordinates of `f` for given others, where the model does it exactly.
-    fn eliminate(&self, _lagrangian: &L, _mu: &Dual<L>, _h: f64, _f: &mut L::Group) {}
+    /// Solves the equations of the cyclic coordinates of `f` and `c` for given others, where the model does it exactly.
+    fn eliminate(
+        &self,
+        _lagrangian: &L,
+        _mu: &Dual<L>,
+        _h: f64,
+        _f: &mut L::Group,
+        _c: &mut Algebra<L>,
+    ) {
+    }
 
     /// Whether there is no matrix yet that fits the step's size.
     fn is_stale(&self) -> bool {

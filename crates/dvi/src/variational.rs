@@ -16,8 +16,6 @@ use crate::{
 const TOLERANCE: f64 = 1e-13;
 /// Evaluations of the balance before a step is given up.
 const MAX_ITERATIONS: u32 = 60;
-/// A contraction slower than this calls for a new matrix.
-const SLOW: f64 = 0.2;
 /// Iterations that bring the cyclic equations from the tolerance to rounding.
 const CYCLIC_ITERATIONS: u32 = 3;
 /// Steps between corrections of the rounding that moves the configuration off its group.
@@ -31,7 +29,8 @@ const NORMALIZE_EVERY: u64 = 32;
 /// coadjoint transport, so that the momentum map holds to rounding even where the balance holds to a tolerance only.
 /// This is (25)–(26) of Lee, Leok & McClamroch (2009) in the form (39)–(46).
 ///
-/// The first step allocates; later ones do not, unless the state's shape changes.
+/// The first step allocates; later ones do not, unless the state's shape changes or a long step needs another matrix
+/// for the first time.
 pub struct Variational<L, M, R = Cayley> {
     lagrangian: L,
     tolerance: f64,
@@ -275,7 +274,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 };
             }
             best = best.min(residual);
-            if self.solver.is_stale() || residual > SLOW * last {
+            if self.solver.is_stale() || residual > M::SLOW * last {
                 self.solver
                     .renew::<R>(lagrangian, &state.g, &state.mu, h, &self.c);
             }
@@ -297,8 +296,8 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     #[inline(always)]
     fn evaluate<R: Retraction>(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) -> f64 {
         self.balance.retract::<R>(&self.c);
-        self.solver
-            .eliminate(lagrangian, &state.mu, h, &mut self.balance.f);
+        let (f, c) = (&mut self.balance.f, &mut self.c);
+        self.solver.eliminate(lagrangian, &state.mu, h, f, c);
         self.balance.evaluate(lagrangian, &state.g, &state.mu, h);
         self.balance.residual.norm_squared().sqrt()
     }
