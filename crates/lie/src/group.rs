@@ -18,9 +18,9 @@ pub type DualOver<G, S> = <Over<G, S> as LieGroup>::Dual;
 /// A Lie group: elements, algebra, dual, and the maps between them.
 ///
 /// Conventions (see the [crate's notation](crate#notation)): left trivialisation, $\dot g = g \xi$;
-/// $\mathrm{Ad}_g \xi = g \xi g^{-1}$; $\mathrm{ad}_\xi \eta = [\xi, \eta]$;
-/// $\langle \mathrm{Ad}^\ast_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}_g \xi\rangle$ and
-/// $\langle \mathrm{ad}^\ast_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}_\xi \eta\rangle$;
+/// $\mathrm{Ad}\_g \xi = g \xi g^{-1}$; $\mathrm{ad}\_\xi \eta = [\xi, \eta]$;
+/// $\langle \mathrm{Ad}^\ast\_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}\_g \xi\rangle$ and
+/// $\langle \mathrm{ad}^\ast\_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}\_\xi \eta\rangle$;
 /// differentials are left-trivialised, $\mathrm d\exp_\xi \eta = \exp(-\xi) \frac{d}{ds}\vert_{s=0} \exp(\xi + s\eta)$.
 ///
 /// A type is a *family* over scalars: [`WithScalar`](Self::WithScalar) names its relatives, so one formula
@@ -65,10 +65,10 @@ pub trait LieGroup: Clone + Debug + PartialEq {
     /// [`NotUnique`], with one of the answers, where there are several.
     fn log(&self) -> Result<Self::Algebra, NotUnique<Self::Algebra>>;
 
-    /// $\mathrm{Ad}_g \xi = g \xi g^{-1}$.
+    /// $\mathrm{Ad}\_g \xi = g \xi g^{-1}$.
     fn adjoint(&self, xi: &Self::Algebra) -> Self::Algebra;
 
-    /// $\mathrm{ad}_\xi \eta = [\xi, \eta]$.
+    /// $\mathrm{ad}\_\xi \eta = [\xi, \eta]$.
     fn bracket(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra;
 
     /// The identity, of this element's shape.
@@ -82,20 +82,20 @@ pub trait LieGroup: Clone + Debug + PartialEq {
         (0..mu.dim()).fold(Self::Scalar::zero(), |sum, i| sum + mu.get(i) * xi.get(i))
     }
 
-    /// $\mathrm{Ad}^\ast_g \mu$, with $\langle \mathrm{Ad}^\ast_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}_g \xi\rangle$.
+    /// $\mathrm{Ad}^\ast\_g \mu$, with $\langle \mathrm{Ad}^\ast\_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}\_g \xi\rangle$.
     fn coadjoint(&self, mu: &Self::Dual) -> Self::Dual {
         dense::transpose_by_pairing::<Self>(mu, &self.zero_algebra(), |e| self.adjoint(e))
     }
 
-    /// $\mathrm{ad}^\ast_\xi \mu$, with $\langle \mathrm{ad}^\ast_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}_\xi \eta\rangle$.
+    /// $\mathrm{ad}^\ast\_\xi \mu$, with $\langle \mathrm{ad}^\ast\_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}\_\xi \eta\rangle$.
     fn coadjoint_bracket(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
         dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::bracket(xi, e))
     }
 
     /// $\mathrm d\exp_\xi \eta$, left-trivialised.
     ///
-    /// The default sums $\sum_k \frac{(-1)^k}{(k+1)!} \mathrm{ad}_\xi^k \eta$; it is right to rounding
-    /// for $\lVert \mathrm{ad}_\xi \rVert \le 2\pi$.
+    /// The default sums $\sum_k \frac{(-1)^k}{(k+1)!} \mathrm{ad}\_\xi^k \eta$; it is right to rounding
+    /// for $\lVert \mathrm{ad}\_\xi \rVert \le 2\pi$.
     fn dexp(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
         dense::dexp_series::<Self>(xi, eta)
     }

@@ -6,8 +6,8 @@ use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO3, Scalar, Tan
 /// A rigid displacement $y \mapsto R y + x$, the semidirect product $SO(3) \ltimes \mathbb{R}^3$.
 ///
 /// Coordinates of the algebra: angular, then linear velocity, both in the body's frame, $(\omega, v)$;
-/// of the dual: $(\pi, q)$. Then $\mathrm{Ad}_{(R,x)} (\omega, v) = (R\omega, Rv + x \times R\omega)$ and
-/// $\mathrm{Ad}^\ast_{(R,x)} (\pi, q) = (R^T(\pi + q \times x), R^T q)$.
+/// of the dual: $(\pi, q)$. Then $\mathrm{Ad}\_{(R,x)} (\omega, v) = (R\omega, Rv + x \times R\omega)$ and
+/// $\mathrm{Ad}^\ast\_{(R,x)} (\pi, q) = (R^T(\pi + q \times x), R^T q)$.
 ///
 /// ```
 /// use lie::{LieGroup, SE3, SO3, Vec3};
@@ -53,7 +53,7 @@ impl<S: Scalar> SE3<S> {
         (v + w.cross(v) * S::from_f64(0.5) + w * (w.dot(v) * quarter)) * scale
     }
 
-    /// $\sum_k a_k \mathrm{ad}_\xi^k \eta$ for $k = 0, \dots, 4$.
+    /// $\sum_k a_k \mathrm{ad}\_\xi^k \eta$ for $k = 0, \dots, 4$.
     #[inline(always)]
     fn ad_polynomial(xi: &Tangent<6, S>, eta: &Tangent<6, S>, a: [S; 4]) -> Tangent<6, S> {
         let mut power = *eta;
@@ -163,7 +163,7 @@ impl<S: Scalar> LieGroup for SE3<S> {
         (angular.cross(w) + linear.cross(v), linear.cross(w)).into()
     }
 
-    /// A polynomial of degree 4 in $\mathrm{ad}_\xi$, whose minimal polynomial is $\lambda(\lambda^2 + \theta^2)^2$:
+    /// A polynomial of degree 4 in $\mathrm{ad}\_\xi$, whose minimal polynomial is $\lambda(\lambda^2 + \theta^2)^2$:
     /// J. M. Selig, *Geometric Fundamentals of Robotics* (2005), ch. 4, rewritten in Stumpff functions.
     #[inline(always)]
     fn dexp(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {

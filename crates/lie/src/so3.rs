@@ -10,8 +10,8 @@ const ORTHOGONALITY_TOLERANCE: f64 = 1e-6;
 
 /// A rotation, held as its matrix $R$.
 ///
-/// Algebra and dual are $\mathbb{R}^3$ by the hat map: $\mathrm{Ad}_R \Omega = R \Omega$,
-/// $\mathrm{ad}_\Omega \eta = \Omega \times \eta$, $\mathrm{Ad}^\ast_R \mu = R^T \mu$, $\mathrm{ad}^\ast_\Omega \mu = \mu \times \Omega$.
+/// Algebra and dual are $\mathbb{R}^3$ by the hat map: $\mathrm{Ad}\_R \Omega = R \Omega$,
+/// $\mathrm{ad}\_\Omega \eta = \Omega \times \eta$, $\mathrm{Ad}^\ast\_R \mu = R^T \mu$, $\mathrm{ad}^\ast\_\Omega \mu = \mu \times \Omega$.
 ///
 /// ```
 /// use lie::{LieGroup, SO3, Tangent, Vec3};
