@@ -38,7 +38,7 @@ pub enum StepError {
     },
     /// The state or the model gave a number that is not finite.
     #[error(
-        "step {step} at t = {t} s: the momentum or the discrete Lagrangian's derivatives are not finite before the step; check the initial state and the model's parameters"
+        "step {step} at t = {t} s: the momentum or the discrete Lagrangian's derivatives are not finite before the step; check the initial state, the model's parameters and the step"
     )]
     NotFinite {
         /// Steps that this integrator has taken before.
@@ -69,8 +69,16 @@ pub enum Hint {
 impl core::fmt::Display for Hint {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::SmallerStep { h } => write!(f, "try a step of {h:.1e} s"),
-            Self::LooserTolerance { tolerance } => write!(f, "try a tolerance of {tolerance:.0e}"),
+            Self::SmallerStep { h } => write!(f, "try a step of {} s", two_digits(*h)),
+            Self::LooserTolerance { tolerance } => write!(
+                f,
+                "rounding reaches no further: try a tolerance of {tolerance:.0e}, or another step"
+            ),
         }
     }
+}
+
+/// Rounded to two significant digits, and printed without an exponent.
+fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap_or(x)
 }

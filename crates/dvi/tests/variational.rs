@@ -1,0 +1,279 @@
+//! The stepping map on small systems: what it keeps, and how it refuses.
+
+use std::ops::Range;
+
+use dvi::{
+    DiscreteLagrangian, Hint, Integrator, Lagrangian, State, StepError, Variational,
+    legendre_minus, legendre_plus,
+};
+use lie::{
+    AlgebraOver, Cotangent, Exp, LieGroup, Mat3, Over, Power, R3, Rn, SO3, Scalar, Tangent, Vec3,
+};
+
+/// Any number of heavy tops that do not feel each other, on a power of run-time size.
+struct Tops;
+
+/// $J$ of a top, kg m².
+const INERTIA: [f64; 3] = [1.0, 2.0, 3.5];
+/// Weight times the mass centre, N m.
+const LEVER: Vec3 = Vec3([0.1, 0.2, 0.7]);
+
+fn top<S: Scalar>(r: &SO3<S>, f: &SO3<S>, h: S) -> S {
+    let trace: f64 = INERTIA.iter().sum();
+    let jd = Mat3::diagonal(INERTIA.map(|j| 0.5 * trace - j)).lift::<S>();
+    -(f.symmetric_minus_identity() * jd).trace() / h - h * r.rotate(LEVER.lift())[2]
+}
+
+impl DiscreteLagrangian for Tops {
+    type Group = Power<SO3>;
+
+    fn value<S: Scalar>(&self, g: &Power<SO3<S>>, f: &Power<SO3<S>>, h: S) -> S {
+        g.iter()
+            .zip(f.iter())
+            .fold(S::zero(), |sum, (r, f)| sum + top(r, f, h))
+    }
+}
+
+/// A body whose position is that of a point off its mass centre: translation is cyclic, and coupled to the rotation.
+struct OffCentre;
+
+const OFFSET: Vec3 = Vec3([0.5, -0.3, 0.2]);
+
+impl DiscreteLagrangian for OffCentre {
+    type Group = (SO3, R3);
+
+    fn value<S: Scalar>(&self, g: &(SO3<S>, R3<S>), f: &(SO3<S>, R3<S>), h: S) -> S {
+        let moved = f.1.vec3() + g.0.rotate(f.0.minus_identity() * OFFSET.lift());
+        moved.norm_squared() / (h + h) + top(&SO3::identity(), &f.0, h)
+    }
+
+    fn cyclic(&self) -> Range<usize> {
+        3..6
+    }
+}
+
+impl Lagrangian for OffCentre {
+    type Group = (SO3, R3);
+
+    fn value<S: Scalar>(&self, g: &Over<(SO3, R3), S>, xi: &AlgebraOver<(SO3, R3), S>) -> S {
+        let (omega, v) = (xi.0.vec3(), xi.1.vec3());
+        let moved = v + g.0.rotate(omega.cross(OFFSET.lift()));
+        let spin = Mat3::diagonal(INERTIA).lift::<S>() * omega;
+        (moved.norm_squared() + omega.dot(spin)) * S::from_f64(0.5)
+    }
+}
+
+fn tops(n: usize) -> State<Power<SO3>> {
+    let turn = |i: usize| SO3::exp(&Tangent([0.3 * i as f64, 0.1, -0.2]));
+    let spin = |i: usize| Cotangent([0.5, -1.0 + i as f64, 4.0]);
+    State {
+        t: 0.0,
+        g: (0..n).map(turn).collect(),
+        mu: (0..n).map(spin).collect(),
+    }
+}
+
+fn off_centre() -> State<(SO3, R3)> {
+    let g = (SO3::exp(&Tangent([0.4, -1.0, 0.3])), Rn([1.0, 2.0, 3.0]));
+    let xi = (Tangent([0.3, -0.5, 1.0]), Tangent([0.2, 0.1, -0.4]));
+    let mu = Lagrangian::legendre(&OffCentre, &g, &xi);
+    State { t: 0.0, g, mu }
+}
+
+#[test]
+fn the_default_legendre_transform_differentiates() {
+    let (state, xi) = (
+        off_centre(),
+        [Vec3([0.3, -0.5, 1.0]), Vec3([0.2, 0.1, -0.4])],
+    );
+    let moved = xi[1] + state.g.0.rotate(xi[0].cross(OFFSET));
+    let spin = Mat3::diagonal(INERTIA) * xi[0] + OFFSET.cross(state.g.0.inverse_rotate(moved));
+    assert!((state.mu.1.vec3() - moved).norm() < 1e-15);
+    assert!((state.mu.0.vec3() - spin).norm() < 1e-15);
+}
+
+#[test]
+fn a_vertical_field_keeps_the_vertical_momentum() {
+    let (mut state, mut integrator) = (tops(3), Variational::new(Tops));
+    let vertical = |s: &State<Power<SO3>>| {
+        let spins =
+            s.g.iter()
+                .zip(s.mu.iter())
+                .map(|(r, mu)| r.rotate(mu.vec3())[2]);
+        spins.collect::<Vec<_>>()
+    };
+    let start = vertical(&state);
+    for _ in 0..2000 {
+        integrator.step(&mut state, 0.01).unwrap();
+    }
+    for (now, start) in vertical(&state).iter().zip(start) {
+        // A random walk of rounding, 10 eps sqrt(N), of a momentum of 4.
+        assert!((now - start).abs() < 4.0 * 10.0 * f64::EPSILON * 2000_f64.sqrt());
+    }
+}
+
+/// Loose tolerance, tight cyclic equations: position and rotation exchange momentum to rounding.
+#[test]
+fn cyclic_coordinates_are_solved_to_rounding() {
+    let mut integrator = Variational::new(OffCentre).with_tolerance(1e-5);
+    let mut state = off_centre();
+    let angular =
+        |s: &State<(SO3, R3)>| s.g.1.vec3().cross(s.mu.1.vec3()) + s.g.0.rotate(s.mu.0.vec3());
+    let (start, mut residual) = (state.clone(), 0.0_f64);
+    for _ in 0..2000 {
+        residual = residual.max(integrator.step(&mut state, 0.01).unwrap().residual);
+    }
+    assert!(residual > 1e-9, "the tolerance was not used: {residual:e}");
+    assert_eq!(state.mu.1, start.mu.1);
+    let drift = (angular(&state) - angular(&start)).norm() / angular(&start).norm();
+    assert!(drift < 10.0 * f64::EPSILON * 2000_f64.sqrt(), "{drift:e}");
+}
+
+#[test]
+fn the_legendre_transforms_invert_the_displacement() {
+    let (state, mut integrator) = (tops(2), Variational::new(Tops));
+    let f = integrator.displacement(&state, 0.02).unwrap();
+    let mut next = state.clone();
+    integrator.step(&mut next, 0.02).unwrap();
+    let minus = legendre_minus(&Tops, &state.g, &f, 0.02);
+    let plus = legendre_plus(&Tops, &state.g, &f, 0.02);
+    for i in 0..2 {
+        assert!((minus[i].vec3() - state.mu[i].vec3()).norm() < 1e-12);
+        assert!((plus[i].vec3() - next.mu[i].vec3()).norm() < 1e-12);
+        assert!((state.g[i].compose(&f[i]).matrix().0) == next.g[i].matrix().0);
+    }
+}
+
+/// For this $L_d$ the step of $-h$ is not the inverse of the step of $h$, but of its adjoint; both exist and are solved.
+#[test]
+fn time_runs_backwards_too() {
+    let (mut state, start) = (tops(1), tops(1));
+    let mut integrator = Variational::new(Tops);
+    for h in [1e-3, -1e-3] {
+        for _ in 0..100 {
+            integrator.step(&mut state, h).unwrap();
+        }
+    }
+    let back = state.g[0]
+        .inverse()
+        .compose(&start.g[0])
+        .log()
+        .unwrap()
+        .vec3()
+        .norm();
+    // The method's own error, of the order of h t.
+    assert!(back < 1e-3, "{back:e}");
+    assert!(state.t.abs() < 1e-15);
+}
+
+#[test]
+fn a_body_at_rest_stays_at_rest() {
+    let mut state = off_centre();
+    state.mu = state.g.zero_dual();
+    let start = state.clone();
+    let mut integrator = Variational::new(OffCentre);
+    for _ in 0..10 {
+        let report = integrator.step(&mut state, 0.1).unwrap();
+        assert_eq!(report.residual, 0.0);
+    }
+    assert_eq!((state.g, state.mu), (start.g, start.mu));
+}
+
+#[test]
+fn the_shape_may_change_and_may_be_empty() {
+    let mut integrator = Variational::new(Tops);
+    for n in [2, 3, 1, 0, 2] {
+        integrator.step(&mut tops(n), 0.01).unwrap();
+    }
+}
+
+#[test]
+fn what_is_wrong_before_the_step_is_named() {
+    let mut integrator = Variational::new(Tops);
+    for h in [0.0, f64::NAN, f64::INFINITY] {
+        let (mut state, start) = (tops(1), tops(1));
+        let error = integrator.step(&mut state, h).unwrap_err();
+        assert!(
+            matches!(error, StepError::InvalidStep { step: 0, .. }),
+            "{error}"
+        );
+        assert_eq!(state, start);
+    }
+    let mut state = tops(1);
+    state.mu[0][1] = f64::NAN;
+    let error = integrator.step(&mut state, 0.01).unwrap_err();
+    assert!(matches!(error, StepError::NotFinite { .. }), "{error}");
+    let mut state = tops(1);
+    state.g[0] = SO3::from_matrix_unchecked(Mat3([[f64::INFINITY; 3]; 3]));
+    let error = integrator.step(&mut state, 0.01).unwrap_err();
+    assert!(matches!(error, StepError::NotFinite { .. }), "{error}");
+}
+
+#[test]
+fn a_refused_step_changes_nothing_and_says_what_to_try() {
+    let (mut state, mut integrator) = (tops(1), Variational::new(Tops));
+    integrator.step(&mut state, 0.01).unwrap();
+    let before = state.clone();
+    let error = integrator.step(&mut state, 20.0).unwrap_err();
+    let StepError::NotConverged {
+        step,
+        h,
+        hint: Hint::SmallerStep { h: smaller },
+        ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    assert!(step == 1 && h == 20.0 && smaller < h);
+    assert_eq!(state, before);
+    // The refusal leaves no trace: the next step is that of an integrator that never saw it.
+    let (mut other, mut fresh) = (before, Variational::new(Tops));
+    integrator.step(&mut state, 0.01).unwrap();
+    fresh.step(&mut other, 0.01).unwrap();
+    let apart = state.g[0]
+        .inverse()
+        .compose(&other.g[0])
+        .log()
+        .unwrap()
+        .vec3()
+        .norm();
+    assert!(apart < 1e-14, "{apart:e}");
+}
+
+#[test]
+fn an_unreachable_tolerance_is_told_from_a_step_too_long() {
+    let mut integrator = Variational::new(Tops).with_tolerance(1e-19);
+    let error = integrator.step(&mut tops(1), 0.01).unwrap_err();
+    let StepError::NotConverged {
+        hint: Hint::LooserTolerance { tolerance },
+        ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    Variational::new(Tops)
+        .with_tolerance(tolerance)
+        .step(&mut tops(1), 0.01)
+        .unwrap();
+}
+
+#[test]
+fn the_retraction_does_not_enter_the_solution() {
+    let (mut a, mut b) = (tops(2), tops(2));
+    let (mut cayley, mut exp) = (
+        Variational::new(Tops),
+        Variational::new(Tops).with_retraction::<Exp>(),
+    );
+    for _ in 0..100 {
+        cayley.step(&mut a, 0.01).unwrap();
+        exp.step(&mut b, 0.01).unwrap();
+    }
+    let apart = a.g[1]
+        .inverse()
+        .compose(&b.g[1])
+        .log()
+        .unwrap()
+        .vec3()
+        .norm();
+    assert!(apart < 1e-11, "{apart:e}");
+}
