@@ -36,6 +36,20 @@ pub enum StepError {
         /// Step size, in seconds.
         h: f64,
     },
+    /// The momentum has another number of factors than the configuration.
+    #[error(
+        "step {step} at t = {t} s: the momentum does not have the configuration's shape ({expected} coordinates, found {found}); make it of `g.zero_dual()`"
+    )]
+    Shape {
+        /// Steps that this integrator has taken before.
+        step: u64,
+        /// Time at the start of the step, in seconds.
+        t: f64,
+        /// Coordinates of the configuration's dual.
+        expected: usize,
+        /// Coordinates of the momentum.
+        found: usize,
+    },
     /// The state or the model gave a number that is not finite.
     #[error(
         "step {step} at t = {t} s: the momentum or the discrete Lagrangian's derivatives are not finite before the step; check the initial state, the model's parameters and the step"

@@ -31,16 +31,22 @@ const NORMALIZE_EVERY: u64 = 32;
 ///
 /// The first step allocates; later ones do not, unless the state's shape changes or a long step needs another matrix
 /// for the first time.
-pub struct Variational<L, M, R = Cayley> {
+///
+/// The type parameters are the Lagrangian, the solver's matrix ([`Newton`] or [`FrozenInertia`]) and the retraction of the
+/// unknowns' chart.
+pub struct Variational<L, M = Newton<<L as DiscreteLagrangian>::Group>, R = Cayley>
+where
+    L: DiscreteLagrangian,
+{
     lagrangian: L,
     tolerance: f64,
     steps: u64,
-    work: Option<M>,
+    work: Option<Work<L, M>>,
     retraction: PhantomData<R>,
 }
 
 /// Storage of the steps.
-pub struct Work<L: DiscreteLagrangian, M> {
+struct Work<L: DiscreteLagrangian, M> {
     solver: M,
     balance: Balance<L::Group, f64>,
     warm: WarmStart,
@@ -65,17 +71,14 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     }
 }
 
-/// An integrator that takes its Newton matrix from dual numbers.
-type ByDuals<L> = Variational<L, Work<L, Newton<<L as DiscreteLagrangian>::Group>>>;
-
-impl<L: DiscreteLagrangian> ByDuals<L> {
+impl<L: DiscreteLagrangian> Variational<L> {
     /// The integrator of a discrete Lagrangian, with the Newton matrix from dual numbers.
     pub fn new(lagrangian: L) -> Self {
         Self::from_lagrangian(lagrangian)
     }
 }
 
-impl<L: Inertia> Variational<L, Work<L, FrozenInertia<L>>> {
+impl<L: Inertia> Variational<L, FrozenInertia<L>> {
     /// The integrator of a discrete Lagrangian that brings its own inertia solve.
     pub fn with_inertia(lagrangian: L) -> Self {
         Self::from_lagrangian(lagrangian)
@@ -88,7 +91,7 @@ struct Solved {
     converged: bool,
 }
 
-impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, Work<L, M>, R> {
+impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R> {
     fn from_lagrangian(lagrangian: L) -> Self {
         Self {
             lagrangian,
@@ -100,7 +103,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, Work
     }
 
     /// The same integrator with its unknowns in another retraction's chart; the solution does not depend on it.
-    pub fn with_retraction<Q: Retraction>(self) -> Variational<L, Work<L, M>, Q> {
+    pub fn with_retraction<Q: Retraction>(self) -> Variational<L, M, Q> {
         Variational::from_lagrangian(self.lagrangian).with_tolerance(self.tolerance)
     }
 
@@ -171,12 +174,24 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, Work
         if !state.mu.norm_squared().is_finite() {
             return Err(StepError::NotFinite { step, t, h });
         }
-        let dim = state.mu.dim();
-        if self.work.as_ref().is_some_and(|work| work.c.dim() != dim) {
+        if self
+            .work
+            .as_ref()
+            .is_some_and(|work| !work.next.same_shape(&state.g))
+        {
             self.work = None;
         }
+        let shape = &self.work(&state.g).balance.residual;
+        if !shape.same_shape(&state.mu) {
+            let (expected, found) = (shape.dim(), state.mu.dim());
+            return Err(StepError::Shape {
+                step,
+                t,
+                expected,
+                found,
+            });
+        }
         let tolerance = self.tolerance;
-        self.work(&state.g);
         let Self {
             lagrangian,
             work: Some(work),
@@ -339,9 +354,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     }
 }
 
-impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator
-    for Variational<L, Work<L, M>, R>
-{
+impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Variational<L, M, R> {
     type Group = L::Group;
 
     fn order(&self) -> u32 {

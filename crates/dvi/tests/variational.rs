@@ -199,6 +199,22 @@ fn what_is_wrong_before_the_step_is_named() {
         );
         assert_eq!(state, start);
     }
+    let mut state = State {
+        mu: tops(3).mu,
+        ..tops(2)
+    };
+    let error = integrator.step(&mut state, 0.01).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            StepError::Shape {
+                expected: 6,
+                found: 9,
+                ..
+            }
+        ),
+        "{error}"
+    );
     let mut state = tops(1);
     state.mu[0][1] = f64::NAN;
     let error = integrator.step(&mut state, 0.01).unwrap_err();

@@ -71,6 +71,12 @@ pub trait LieGroup: Clone + Debug + PartialEq {
     /// $\mathrm{ad}\_\xi \eta = [\xi, \eta]$.
     fn bracket(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra;
 
+    /// Whether the two have the same number of factors, so that their product exists; for groups of run-time size.
+    #[inline(always)]
+    fn same_shape(&self, _other: &Self) -> bool {
+        true
+    }
+
     /// The identity, of this element's shape.
     fn identity_like(&self) -> Self {
         Self::exp(&self.zero_algebra())

@@ -80,6 +80,10 @@ macro_rules! tuple {
                 debug_assert_eq!(start, self.dim());
             }
             #[inline(always)]
+            fn same_shape(&self, other: &Self) -> bool {
+                $(self.$i.same_shape(&other.$i))&&+
+            }
+            #[inline(always)]
             fn set_zero(&mut self) {
                 $(self.$i.set_zero();)+
             }
@@ -149,6 +153,10 @@ macro_rules! tuple {
             #[inline(always)]
             fn bracket(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
                 ($($G::bracket(&xi.$i, &eta.$i),)+)
+            }
+            #[inline(always)]
+            fn same_shape(&self, other: &Self) -> bool {
+                $(self.$i.same_shape(&other.$i))&&+
             }
             #[inline(always)]
             fn identity_like(&self) -> Self {
@@ -265,6 +273,10 @@ macro_rules! repeated {
                 }
             }
             #[inline(always)]
+            fn same_shape(&self, other: &Self) -> bool {
+                self.len() == other.len() && self.iter().zip(other.iter()).all(|(a, b)| a.same_shape(b))
+            }
+            #[inline(always)]
             fn set_zero(&mut self) {
                 self.iter_mut().for_each(VectorSpace::set_zero);
             }
@@ -336,6 +348,10 @@ macro_rules! repeated {
             #[inline(always)]
             fn bracket(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
                 $map(xi.len(), |i: usize| $G::bracket(&xi[i], &eta[i]))
+            }
+            #[inline(always)]
+            fn same_shape(&self, other: &Self) -> bool {
+                self.len() == other.len() && self.iter().zip(other.iter()).all(|(a, b)| a.same_shape(b))
             }
             #[inline(always)]
             fn identity_like(&self) -> Self {

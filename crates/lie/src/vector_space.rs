@@ -77,6 +77,12 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
         coordinates.fold(0.0, |a: f64, b| if a >= b || a.is_nan() { a } else { b })
     }
 
+    /// Whether the two have the same number of coordinates, block by block.
+    #[inline(always)]
+    fn same_shape(&self, other: &Self) -> bool {
+        self.dim() == other.dim()
+    }
+
     /// The zero vector of the same shape.
     fn zero_like(&self) -> Self {
         let mut zero = self.clone();
