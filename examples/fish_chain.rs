@@ -7,8 +7,8 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use articulated_fluid::{ArticulatedBody, Configuration, Conserved, Scene};
-use dvi::{Integrator, Lagrangian, State, Variational};
+use articulated_fluid::{ArticulatedBody, Configuration, Conserved, ModelError, Scene};
+use dvi::{Integrator, State, Variational};
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::Vec3;
 use study::baseline::{self, Pair, Tolerance};
@@ -35,21 +35,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::parse(include_str!("../scenes/fish-chain.toml"), "fish-chain.toml")?;
     let (model, start) = (scene.model()?, scene.initial_state()?);
 
-    let variational = Trajectory::new(
-        "LGVI, h = 1 ms",
-        &model,
-        variational(&model, &start, seconds)?,
-    )?;
-    let runge_kutta = Trajectory::new(
+    let states = variational(&model, &start, seconds)?;
+    let kept = Trajectory::new("LGVI, h = 1 ms", Colour::Vermillion, &model, &states)?;
+    let states = runge_kutta(&model, &start, seconds)?;
+    let lost = Trajectory::new(
         "RK 4(5), relative tolerance 1e-3",
+        Colour::SkyBlue,
         &model,
-        runge_kutta(&model, &start, seconds)?,
+        &states,
     )?;
-    variational.report();
-    runge_kutta.report();
+    kept.report();
+    lost.report();
 
     std::fs::create_dir_all("out")?;
-    let saved = figure(&variational, &runge_kutta).save(Path::new("out/fish_chain"))?;
+    let saved = figure(&lost, &kept).save(Path::new("out/fish_chain"))?;
     println!(
         "drawn to {} and {}",
         saved.svg.display(),
@@ -105,137 +104,126 @@ fn runge_kutta(
     Ok(states.collect())
 }
 
-/// A method's states with what is drawn of them.
+/// What is drawn of a method's states.
 struct Trajectory {
     name: &'static str,
-    states: Vec<State<Configuration>>,
+    colour: Colour,
+    t: Vec<f64>,
     /// $\Omega_0, \dot x, \Omega_1, \Omega_2$ of each state.
     velocities: Vec<[Vec3; 4]>,
-    /// $\sum_i R_i M_i V_i$ from the velocities: the momentum $p_x$ itself is carried, and proves nothing.
-    linear: Vec<Vec3>,
     conserved: Vec<Conserved>,
+    orthogonality: Vec<f64>,
 }
 
 impl Trajectory {
     fn new(
         name: &'static str,
+        colour: Colour,
         model: &ArticulatedBody,
-        states: Vec<State<Configuration>>,
-    ) -> Result<Self, Box<dyn Error>> {
-        let (mut velocities, mut linear, mut conserved) = (Vec::new(), Vec::new(), Vec::new());
-        for state in &states {
-            let xi = model.velocity(state)?;
-            linear.push(model.legendre(&state.g, &xi).1.vec3());
-            let (omega0, dx, omega) = xi;
-            velocities.push([omega0.vec3(), dx.vec3(), omega[0].vec3(), omega[1].vec3()]);
-            conserved.push(model.conserved(state)?);
-        }
+        states: &[State<Configuration>],
+    ) -> Result<Self, ModelError> {
+        let velocities = |state| {
+            let (omega0, dx, omega) = model.velocity(state)?;
+            Ok([omega0.vec3(), dx.vec3(), omega[0].vec3(), omega[1].vec3()])
+        };
         Ok(Self {
             name,
-            states,
-            velocities,
-            linear,
-            conserved,
+            colour,
+            t: states.iter().map(|state| state.t).collect(),
+            velocities: states.iter().map(velocities).collect::<Result<_, _>>()?,
+            conserved: states
+                .iter()
+                .map(|s| model.conserved(s))
+                .collect::<Result<_, _>>()?,
+            orthogonality: states
+                .iter()
+                .map(|s| model.orthogonality_error(&s.g))
+                .collect(),
         })
     }
 
-    /// The largest $\lVert I - R_i^T R_i \rVert$ of a state.
-    fn orthogonality(state: &State<Configuration>) -> f64 {
-        let tails = state.g.2.iter().map(|r| r.orthogonality_error());
-        tails.fold(state.g.0.orthogonality_error(), f64::max)
+    fn linear_change(&self, k: usize) -> f64 {
+        (self.conserved[k].linear - self.conserved[0].linear).norm()
+    }
+
+    fn angular_change(&self, k: usize) -> f64 {
+        (self.conserved[k].angular - self.conserved[0].angular).norm()
+    }
+
+    fn energy_error(&self, k: usize) -> f64 {
+        (self.conserved[k].energy / self.conserved[0].energy - 1.0).abs()
     }
 
     fn report(&self) {
-        let start = self.conserved[0];
-        let worst =
-            |f: &dyn Fn(&Conserved) -> f64| self.conserved.iter().map(f).fold(0.0, f64::max);
+        let worst = |f: &dyn Fn(usize) -> f64| (0..self.t.len()).map(f).fold(0.0, f64::max);
         println!(
             "{:32} energy error {:.1e}, linear momentum {:.1e} kg m/s, angular {:.1e} kg m^2/s, orthogonality {:.1e}",
             self.name,
-            worst(&|c| (c.energy / start.energy - 1.0).abs()),
-            self.linear
-                .iter()
-                .map(|p| (*p - start.linear).norm())
-                .fold(0.0, f64::max),
-            worst(&|c| (c.angular - start.angular).norm()),
-            self.states
-                .iter()
-                .map(Self::orthogonality)
-                .fold(0.0, f64::max),
+            worst(&|k| self.energy_error(k)),
+            worst(&|k| self.linear_change(k)),
+            worst(&|k| self.angular_change(k)),
+            worst(&|k| self.orthogonality[k]),
         );
     }
 
     fn line(&self, value: impl Fn(usize) -> f64) -> Line {
-        let colour = if self.name.starts_with("LGVI") {
-            Colour::Vermillion
-        } else {
-            Colour::SkyBlue
-        };
-        let points = self
-            .states
-            .iter()
-            .enumerate()
-            .map(|(k, s)| (s.t, value(k)))
-            .collect();
+        let points = self.t.iter().enumerate().map(|(k, t)| (*t, value(k)));
         Line {
             label: self.name.into(),
-            colour,
+            colour: self.colour,
             style: Style::Solid,
-            points,
+            points: points.collect(),
         }
     }
 }
 
 /// Panels (a)–(h): the velocities on the left, what should be kept on the right.
-fn figure(variational: &Trajectory, runge_kutta: &Trajectory) -> Figure {
+fn figure(lost: &Trajectory, kept: &Trajectory) -> Figure {
     let panel = |title: &str, y: &str, y_scale, lines: &dyn Fn(&Trajectory) -> Vec<Line>| Panel {
         title: title.into(),
         x_label: "t [s]".into(),
         y_label: y.into(),
         y_scale,
-        lines: [lines(runge_kutta), lines(variational)].concat(),
+        lines: [lines(lost), lines(kept)].concat(),
     };
     let velocity = |title, y, which: usize| {
-        let lines = |trajectory: &Trajectory| {
-            let component = |i| trajectory.line(|k| trajectory.velocities[k][which][i]);
+        panel(title, y, Scale::Linear, &|method| {
+            let component = |i| method.line(|k| method.velocities[k][which][i]);
             [0, 1, 2].map(component).to_vec()
-        };
-        panel(title, y, Scale::Linear, &lines)
-    };
-    let kept = |title, y, scale, value: &dyn Fn(&Trajectory, usize) -> f64| {
-        panel(title, y, scale, &|trajectory| {
-            vec![trajectory.line(|k| value(trajectory, k))]
         })
     };
+    let constant = |title, y, scale, value: &dyn Fn(&Trajectory, usize) -> f64| {
+        panel(title, y, scale, &|method| {
+            vec![method.line(|k| value(method, k))]
+        })
+    };
+    let (linear, log) = (Scale::Linear, Scale::Log);
     Figure {
         title: "Three ellipsoids on ball joints in a perfect fluid".into(),
         columns: 2,
         panels: vec![
             velocity("(a) angular velocity of the head, Ω₀", "rad/s", 0),
-            kept("(b) total energy", "J", Scale::Linear, &|t, k| {
-                t.conserved[k].energy
+            constant("(b) total energy", "J", linear, &|m, k| {
+                m.conserved[k].energy
             }),
             velocity("(c) angular velocity of tail 1, Ω₁", "rad/s", 2),
-            kept(
-                "(d) change of the linear momentum, from the velocities",
+            constant(
+                "(d) change of the linear momentum",
                 "kg m/s",
-                Scale::Log,
-                &|t, k| (t.linear[k] - t.conserved[0].linear).norm(),
+                log,
+                &Trajectory::linear_change,
             ),
             velocity("(e) angular velocity of tail 2, Ω₂", "rad/s", 3),
-            kept(
+            constant(
                 "(f) change of the angular momentum",
                 "kg m²/s",
-                Scale::Log,
-                &|t, k| (t.conserved[k].angular - t.conserved[0].angular).norm(),
+                log,
+                &Trajectory::angular_change,
             ),
             velocity("(g) velocity of the head", "m/s", 1),
-            kept(
-                "(h) orthogonality, ‖I − RᵀR‖",
-                "1",
-                Scale::Log,
-                &|t, k| Trajectory::orthogonality(&t.states[k]),
-            ),
+            constant("(h) orthogonality, ‖I − RᵀR‖", "", log, &|m, k| {
+                m.orthogonality[k]
+            }),
         ],
     }
 }

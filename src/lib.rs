@@ -1,10 +1,18 @@
-#![doc = include_str!("../README.md")]
+//! Lie group variational integrators: from a Lagrangian to a simulator that keeps the group, the symplectic form and the
+//! momentum maps.
 //!
-//! # The crates behind the facade
+//! This crate is the facade of three:
 //! * [`lie`]: groups, algebras, duals, retractions, and a law suite for groups of your own;
-//! * [`dvi`]: discrete Lagrangians and the integrators made from them;
+//! * [`dvi`]: discrete Lagrangians and the integrators made from them; start at [`dvi::DiscreteLagrangian`];
 //! * [`articulated_fluid`]: rigid ellipsoids on ball joints in a perfect fluid, and its scene files.
+//!
+//! With the default feature `cli` it also is the command `lgvi`; a library wants `default-features = false`.
 
 pub use articulated_fluid;
 pub use dvi;
 pub use lie;
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -4,7 +4,7 @@ mod common;
 
 use articulated_fluid::{ArticulatedBody, Configuration, OnSe3};
 use common::{attitude_error, paper, run};
-use dvi::{Integrator, Pair, State, Variational};
+use dvi::{Integrator, State, Variational};
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::{Exp, LieGroup, VectorSpace};
 
@@ -49,14 +49,9 @@ fn the_lagrangian_form_is_the_hamiltonian_form() {
     compare("Lagrangian form", |steps| {
         let (model, start) = paper();
         let mut integrator = Variational::with_inertia(model);
-        let f = integrator.displacement(&start, H).unwrap();
-        let mut pair = Pair {
-            t: 0.0,
-            g: start.g,
-            f,
-        };
+        let mut pair = integrator.pair(&start, H).unwrap();
         for _ in 1..steps {
-            integrator.step_pair(&mut pair, H).unwrap();
+            integrator.step_pair(&mut pair).unwrap();
         }
         let mu = dvi::legendre_plus(integrator.lagrangian(), &pair.g, &pair.f, H);
         State {

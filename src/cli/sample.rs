@@ -23,16 +23,13 @@ impl Sample {
     /// The sample of a state; `None` where a quantity is not finite.
     pub fn take(model: &ArticulatedBody, state: &State<Configuration>) -> Option<Self> {
         let kept = model.conserved(state).ok()?;
-        let errors = attitudes(&state.g).map(SO3::orthogonality_error);
-        let sample = Self {
+        Some(Self {
             t: state.t,
             energy: kept.energy,
             linear: kept.linear,
             angular: kept.angular,
-            orthogonality: errors.fold(0.0, f64::max),
-        };
-        let norms = sample.energy + sample.linear.norm() + sample.angular.norm();
-        norms.is_finite().then_some(sample)
+            orthogonality: model.orthogonality_error(&state.g),
+        })
     }
 }
 

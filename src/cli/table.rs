@@ -14,7 +14,7 @@ pub const COLUMNS: &str = "  t                        time, s
                            its sign continuous from row to row
   NAME.wx,.wy,.wz          angular velocity of the body NAME in its own frame, rad/s
   energy                   kinetic energy of bodies and fluid, J
-  px,py,pz                 linear momentum in the reference frame, kg m/s
+  px,py,pz                 linear momentum from the velocities, in the reference frame, kg m/s
   lx,ly,lz                 angular momentum about the origin in the reference frame, kg m^2/s
   orthogonality            largest ||I - R^T R||_F over the bodies";
 

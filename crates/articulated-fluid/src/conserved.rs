@@ -1,6 +1,6 @@
 //! What the motion keeps, and where the joints are.
 
-use dvi::{ContinuousSystem, State};
+use dvi::{ContinuousSystem, Lagrangian, State};
 use lie::{LieGroup, SO3, Vec3};
 
 use crate::{ArticulatedBody, Configuration, ModelError};
@@ -10,7 +10,7 @@ use crate::{ArticulatedBody, Configuration, ModelError};
 pub struct Conserved {
     /// Total kinetic energy of bodies and fluid, J.
     pub energy: f64,
-    /// Total linear momentum $p_x$, kg m/s, reference frame.
+    /// Total linear momentum $\sum_i R_i M_i V_i$ from the velocities, kg m/s, reference frame: the carried $p_x$ proves nothing.
     pub linear: Vec3,
     /// Total angular momentum about the origin, $x \times p_x + \sum_i R_i p_i$, kg m²/s, reference frame.
     pub angular: Vec3,
@@ -40,7 +40,7 @@ impl ArticulatedBody {
     /// The conserved quantities of a state.
     ///
     /// # Errors
-    /// As [`velocity`](Self::velocity).
+    /// As [`velocity`](Self::velocity); [`ModelError::NotFinite`] where one of them is not finite.
     pub fn conserved(&self, state: &State<Configuration>) -> Result<Conserved, ModelError> {
         let xi = self.velocity(state)?;
         let ((r0, x, r), (p0, px, p)) = (&state.g, &state.mu);
@@ -50,11 +50,31 @@ impl ArticulatedBody {
             .zip(momenta)
             .map(|(r, p): (&SO3, _)| r.rotate(p.vec3()));
         let orbital = x.vec3().cross(px.vec3());
-        Ok(Conserved {
+        let conserved = Conserved {
             energy: 0.5 * Configuration::pair(&state.mu, &xi),
-            linear: px.vec3(),
+            linear: self.legendre(&state.g, &xi).1.vec3(),
             angular: spins.fold(orbital, |sum, spin| sum + spin),
-        })
+        };
+        let Conserved {
+            energy,
+            linear,
+            angular,
+        } = conserved;
+        let checks = [
+            (energy.is_finite(), "energy"),
+            (linear.is_finite(), "linear momentum"),
+            (angular.is_finite(), "angular momentum"),
+        ];
+        match checks.iter().find(|(finite, _)| !finite) {
+            Some((_, quantity)) => Err(ModelError::NotFinite { quantity }),
+            None => Ok(conserved),
+        }
+    }
+
+    /// The largest $\lVert I - R_i^T R_i \rVert_F$ of the bodies.
+    pub fn orthogonality_error(&self, g: &Configuration) -> f64 {
+        let attitudes = core::iter::once(&g.0).chain(g.2.iter());
+        attitudes.map(SO3::orthogonality_error).fold(0.0, f64::max)
     }
 
     /// Where the joints are, in the reference frame: $x + R_0 d_{0i}$, m, in the order of the tails.

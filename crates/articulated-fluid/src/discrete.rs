@@ -121,4 +121,8 @@ impl DiscreteLagrangian for ArticulatedBody {
     fn cyclic(&self) -> Range<usize> {
         3..6
     }
+
+    fn fits(&self, g: &Configuration) -> bool {
+        g.2.len() == self.tails.len()
+    }
 }

@@ -51,6 +51,12 @@ pub enum ModelError {
         /// Index of the last body.
         last: usize,
     },
+    /// A state has, or leads to, a number that is not finite.
+    #[error("the state's {quantity} is not finite; check attitudes, velocities and the step")]
+    NotFinite {
+        /// What is not finite.
+        quantity: &'static str,
+    },
     /// The state has another number of tails than the model.
     #[error("the state has {found} tails, the model {expected}")]
     Shape {

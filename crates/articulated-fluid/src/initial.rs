@@ -1,7 +1,7 @@
 //! From a scene to a model and its initial state.
 
 use dvi::{Lagrangian, State};
-use lie::{Mat3, Rn, SO3, Tangent, Vec3};
+use lie::{LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
 
 use crate::scene::{SceneBody, SceneJoint};
 use crate::{ArticulatedBody, Body, Configuration, Joint, ModelError, Scene};
@@ -30,7 +30,7 @@ impl Scene {
     /// The state at t = 0: attitudes and velocities as given, the momentum by the Legendre transform (10).
     ///
     /// # Errors
-    /// As [`model`](Self::model).
+    /// As [`model`](Self::model), and [`ModelError::NotFinite`] where a momentum overflows.
     pub fn initial_state(&self) -> Result<State<Configuration>, ModelError> {
         let model = self.model()?;
         let mut attitudes = self
@@ -48,6 +48,16 @@ impl Scene {
         let g = (head, Rn(self.position), attitudes.collect());
         let xi = (rate, Tangent(self.velocity), rates.collect());
         let mu = Lagrangian::legendre(&model, &g, &xi);
+        if !g.is_finite() {
+            return Err(ModelError::NotFinite {
+                quantity: "configuration",
+            });
+        }
+        if !mu.max_magnitude().is_finite() {
+            return Err(ModelError::NotFinite {
+                quantity: "momentum",
+            });
+        }
         Ok(State { t: 0.0, g, mu })
     }
 }

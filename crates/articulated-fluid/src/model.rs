@@ -219,6 +219,9 @@ fn nonstandard(j: Mat3) -> Mat3 {
 
 /// By the leading minors of a matrix that is symmetric to rounding, brought to trace one against underflow.
 fn positive_definite(a: &Mat3) -> bool {
+    if a.trace() <= 0.0 {
+        return false;
+    }
     let a = *a * (1.0 / a.trace());
     let symmetric = a.skew_vee().norm() <= 1e-12 * a.frobenius();
     let minor = a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)];

@@ -27,6 +27,10 @@ impl DiscreteLagrangian for OnSe3 {
         let (r0, dx) = (&g.0.rotation, g.0.rotation.rotate(f.0.translation));
         self.0.action((r0, &g.1), (&f.0.rotation, dx, &f.1), h)
     }
+
+    fn fits(&self, g: &SemidirectConfiguration) -> bool {
+        g.1.len() == self.0.tails()
+    }
 }
 
 impl OnSe3 {

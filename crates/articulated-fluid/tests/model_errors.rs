@@ -42,6 +42,8 @@ fn unsound() -> Vec<Mat3> {
         // Two negative eigenvalues: the determinant alone does not show it.
         Mat3::diagonal([-1.0, -1.0, 1.0]),
         Mat3::diagonal([1.0, -1.0, -1.0]),
+        // All negative: so is the trace.
+        Mat3::diagonal([-1.0, -2.0, -1.5]),
         Mat3::zero(),
     ];
     for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

@@ -36,6 +36,16 @@ pub enum StepError {
         /// Step size, in seconds.
         h: f64,
     },
+    /// The configuration is not one of the model's.
+    #[error(
+        "step {step} at t = {t} s: the configuration does not fit the model (another number of bodies?); make it from the model"
+    )]
+    Misfit {
+        /// Steps that this integrator has taken before.
+        step: u64,
+        /// Time at the start of the step, in seconds.
+        t: f64,
+    },
     /// The momentum has another number of factors than the configuration.
     #[error(
         "step {step} at t = {t} s: the momentum does not have the configuration's shape ({expected} coordinates, found {found}); make it of `g.zero_dual()`"
@@ -50,9 +60,9 @@ pub enum StepError {
         /// Coordinates of the momentum.
         found: usize,
     },
-    /// The state or the model gave a number that is not finite.
+    /// The state, the model or the state after the step has a number that is not finite.
     #[error(
-        "step {step} at t = {t} s: the momentum or the discrete Lagrangian's derivatives are not finite before the step; check the initial state, the model's parameters and the step"
+        "step {step} at t = {t} s: a number is not finite: in the state, in the discrete Lagrangian's derivatives at it, or in the state after a step of {h} s; check the initial state, the model's parameters and the step"
     )]
     NotFinite {
         /// Steps that this integrator has taken before.
@@ -83,7 +93,9 @@ pub enum Hint {
 impl core::fmt::Display for Hint {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::SmallerStep { h } => write!(f, "try a step of {} s", two_digits(*h)),
+            Self::SmallerStep { h } => {
+                write!(f, "try a smaller step, such as {} s", two_digits(*h))
+            }
             Self::LooserTolerance { tolerance } => write!(
                 f,
                 "rounding reaches no further: try a tolerance of {tolerance:.0e}, or another step"

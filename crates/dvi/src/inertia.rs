@@ -53,7 +53,7 @@ pub struct FrozenInertia<L: Inertia> {
 }
 
 impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
-    /// An exact matrix costs as much as some thirty iterations.
+    /// An exact matrix costs as much as tens of iterations.
     const SLOW: f64 = 0.6;
 
     fn allocate(lagrangian: &L, _: &L::Group) -> Self {

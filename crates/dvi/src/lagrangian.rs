@@ -93,6 +93,11 @@ pub trait DiscreteLagrangian {
         0..0
     }
 
+    /// Whether `g` is a configuration of this system; for systems whose size is known at run time.
+    fn fits(&self, _g: &Self::Group) -> bool {
+        true
+    }
+
     /// The order of the method.
     fn order(&self) -> u32 {
         1

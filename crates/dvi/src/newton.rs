@@ -49,6 +49,10 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
         self.h = h;
     }
 
+    fn forget(&mut self) {
+        self.known = false;
+    }
+
     fn is_stale(&self) -> bool {
         !self.known
     }

@@ -30,6 +30,9 @@ pub trait StepSolver<L: DiscreteLagrangian> {
     ) {
     }
 
+    /// Forgets what steps before have left.
+    fn forget(&mut self) {}
+
     /// Whether there is no matrix yet that fits the step's size.
     fn is_stale(&self) -> bool {
         false

@@ -15,7 +15,7 @@ use lie::RealGroup;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<G: RealGroup> {
-    /// Time $t_k$ in seconds.
+    /// Time $t_k$ in seconds; a step adds its size, so that rounding gathers: count steps where time must be exact.
     pub t: f64,
     /// Configuration $g_k$.
     pub g: G,
@@ -28,6 +28,8 @@ pub struct State<G: RealGroup> {
 pub struct Pair<G: RealGroup> {
     /// Time $t_k$ in seconds.
     pub t: f64,
+    /// Step size $h$ in seconds, for which $f_k$ was solved.
+    pub h: f64,
     /// Configuration $g_k$.
     pub g: G,
     /// Displacement $f_k = g_k^{-1} g_{k+1}$.

@@ -16,6 +16,8 @@ use crate::{
 const TOLERANCE: f64 = 1e-13;
 /// Evaluations of the balance before a step is given up.
 const MAX_ITERATIONS: u32 = 60;
+/// A residual below this is one that only rounding keeps from the tolerance.
+const ROUNDING: f64 = 1e-12;
 /// Iterations that bring the cyclic equations from the tolerance to rounding.
 const CYCLIC_ITERATIONS: u32 = 3;
 /// Steps between corrections of the rounding that moves the configuration off its group.
@@ -74,14 +76,14 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
 impl<L: DiscreteLagrangian> Variational<L> {
     /// The integrator of a discrete Lagrangian, with the Newton matrix from dual numbers.
     pub fn new(lagrangian: L) -> Self {
-        Self::from_lagrangian(lagrangian)
+        Self::with_solver(lagrangian)
     }
 }
 
 impl<L: Inertia> Variational<L, FrozenInertia<L>> {
     /// The integrator of a discrete Lagrangian that brings its own inertia solve.
     pub fn with_inertia(lagrangian: L) -> Self {
-        Self::from_lagrangian(lagrangian)
+        Self::with_solver(lagrangian)
     }
 }
 
@@ -89,10 +91,13 @@ impl<L: Inertia> Variational<L, FrozenInertia<L>> {
 struct Solved {
     report: StepReport,
     converged: bool,
+    /// Whether the first evaluation was finite.
+    started: bool,
 }
 
 impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R> {
-    fn from_lagrangian(lagrangian: L) -> Self {
+    /// The integrator of a discrete Lagrangian with the solver `M`, [`Newton`] or another.
+    pub fn with_solver(lagrangian: L) -> Self {
         Self {
             lagrangian,
             tolerance: TOLERANCE,
@@ -104,7 +109,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
 
     /// The same integrator with its unknowns in another retraction's chart; the solution does not depend on it.
     pub fn with_retraction<Q: Retraction>(self) -> Variational<L, M, Q> {
-        Variational::from_lagrangian(self.lagrangian).with_tolerance(self.tolerance)
+        Variational::with_solver(self.lagrangian).with_tolerance(self.tolerance)
     }
 
     /// The largest residual of a solved step relative to the momentum's size; 1e-13 unless set.
@@ -127,36 +132,62 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         Ok(self.work(&state.g).balance.f.clone())
     }
 
-    /// The Lagrangian form $(g_k, f_k) \mapsto (g_{k+1}, f_{k+1})$, (25)–(26) and (34)–(38).
+    /// The pair $(g_k, f_k)$ of a state and a step size, where the Lagrangian form starts.
+    ///
+    /// # Errors
+    /// As [`step`](Integrator::step).
+    pub fn pair(&mut self, state: &State<L::Group>, h: f64) -> Result<Pair<L::Group>, StepError> {
+        let f = self.displacement(state, h)?;
+        Ok(Pair {
+            t: state.t,
+            h,
+            g: state.g.clone(),
+            f,
+        })
+    }
+
+    /// The Lagrangian form $(g_k, f_k) \mapsto (g_{k+1}, f_{k+1})$, (25)–(26) and (34)–(38), by the step size of the pair.
     ///
     /// The momentum between the steps is derived anew from the pair, which divides a small difference by $h$:
-    /// prefer [`step`](Integrator::step), which carries it, for long runs.
+    /// prefer [`step`](Integrator::step), which carries it, for long runs. Each step clones the configuration.
     ///
     /// # Errors
     /// As [`step`](Integrator::step); the pair is as it was.
-    pub fn step_pair(
-        &mut self,
-        pair: &mut Pair<L::Group>,
-        h: f64,
-    ) -> Result<StepReport, StepError> {
-        let mut g = pair.g.compose(&pair.f);
-        let mu = legendre_plus(&self.lagrangian, &pair.g, &pair.f, h);
-        self.normalize(&mut g);
-        let next = State {
-            t: pair.t + h,
-            g,
+    pub fn step_pair(&mut self, pair: &mut Pair<L::Group>) -> Result<StepReport, StepError> {
+        let Pair { t, h, g, f } = pair;
+        self.check(*t, *h, g)?;
+        let mu = legendre_plus(&self.lagrangian, g, f, *h);
+        let mut next = State {
+            t: *t + *h,
+            g: g.compose(f),
             mu,
         };
-        let report = self.solve(&next, h)?;
-        pair.f.clone_from(&self.work(&next.g).balance.f);
-        (pair.t, pair.g) = (next.t, next.g);
-        self.steps += 1;
+        if self.normalizes() {
+            next.g.normalize();
+        }
+        let report = self.solve(&next, *h)?;
+        self.accept(*h);
+        f.clone_from(&self.work(&next.g).balance.f);
+        (*t, *g) = (next.t, next.g);
         Ok(report)
     }
 
-    fn normalize(&self, g: &mut L::Group) {
-        if self.steps % NORMALIZE_EVERY == NORMALIZE_EVERY - 1 {
-            g.normalize();
+    fn normalizes(&self) -> bool {
+        self.steps % NORMALIZE_EVERY == NORMALIZE_EVERY - 1
+    }
+
+    /// Counts a step that was taken and remembers its solution for the next guess.
+    fn accept(&mut self, h: f64) {
+        self.steps += 1;
+        if let Some(Work {
+            warm,
+            c,
+            coordinates,
+            ..
+        }) = &mut self.work
+        {
+            c.write(coordinates);
+            warm.record(h, coordinates);
         }
     }
 
@@ -165,23 +196,32 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
             .get_or_insert_with(|| Work::new(&self.lagrangian, g))
     }
 
-    /// Solves the balance from the extrapolated guess, and once more from zero where that fails.
-    fn solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, StepError> {
-        let (step, t) = (self.steps, state.t);
+    /// Whether a step of size `h` from `g` at time `t` makes sense at all.
+    fn check(&self, t: f64, h: f64, g: &L::Group) -> Result<(), StepError> {
+        let step = self.steps;
         if !(h.is_finite() && h != 0.0) {
             return Err(StepError::InvalidStep { step, t, h });
         }
-        if !state.mu.norm_squared().is_finite() {
+        if !self.lagrangian.fits(g) {
+            return Err(StepError::Misfit { step, t });
+        }
+        if !t.is_finite() {
             return Err(StepError::NotFinite { step, t, h });
         }
-        if self
-            .work
-            .as_ref()
-            .is_some_and(|work| !work.next.same_shape(&state.g))
-        {
-            self.work = None;
+        Ok(())
+    }
+
+    /// Solves the balance from the extrapolated guess, and once more from zero where that fails.
+    fn solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, StepError> {
+        let (step, t, tolerance) = (self.steps, state.t, self.tolerance);
+        self.check(t, h, &state.g)?;
+        let fits = |work: &Work<L, M>| work.next.same_shape(&state.g);
+        if !self.work.as_ref().is_some_and(fits) {
+            self.work = Some(Work::new(&self.lagrangian, &state.g));
         }
-        let shape = &self.work(&state.g).balance.residual;
+        let (lagrangian, work) = (&self.lagrangian, &mut self.work);
+        let work = work.get_or_insert_with(|| Work::new(lagrangian, &state.g));
+        let shape = &work.balance.residual;
         if !shape.same_shape(&state.mu) {
             let (expected, found) = (shape.dim(), state.mu.dim());
             return Err(StepError::Shape {
@@ -191,44 +231,37 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
                 found,
             });
         }
-        let tolerance = self.tolerance;
-        let Self {
-            lagrangian,
-            work: Some(work),
-            ..
-        } = self
-        else {
+        if !state.mu.max_magnitude().is_finite() {
             return Err(StepError::NotFinite { step, t, h });
-        };
+        }
         work.solver.begin(lagrangian, &state.g, &state.mu, h);
         let warm = work.warm.guess(h, &mut work.coordinates);
         work.c.read(&work.coordinates);
         let mut solved = work.iterate::<R>(lagrangian, state, h, tolerance);
         if warm && !solved.converged {
+            work.forget();
             work.c.set_zero();
-            let before = solved.report.iterations;
+            let before = solved.report;
             solved = work.iterate::<R>(lagrangian, state, h, tolerance);
-            solved.report.iterations += before;
+            solved.report.iterations += before.iterations;
         }
         if !solved.converged {
-            work.warm.forget();
-            return Err(failure(step, t, h, tolerance, solved.report));
+            work.forget();
+            return Err(failure(step, t, h, tolerance, &solved));
         }
-        work.c.write(&mut work.coordinates);
-        work.warm.record(h, &work.coordinates);
         Ok(solved.report)
     }
 }
 
-fn failure(step: u64, t: f64, h: f64, tolerance: f64, report: StepReport) -> StepError {
+fn failure(step: u64, t: f64, h: f64, tolerance: f64, solved: &Solved) -> StepError {
     let StepReport {
         iterations,
         residual,
-    } = report;
-    if !residual.is_finite() && iterations <= 1 {
+    } = solved.report;
+    if !solved.started {
         return StepError::NotFinite { step, t, h };
     }
-    let hint = if residual < 1e3 * tolerance {
+    let hint = if residual < ROUNDING.max(1e3 * tolerance) {
         Hint::LooserTolerance {
             tolerance: 2.0 * residual,
         }
@@ -245,7 +278,24 @@ fn failure(step: u64, t: f64, h: f64, tolerance: f64, report: StepReport) -> Ste
     }
 }
 
+/// The Euclidean norm, by the largest coordinate where squares leave the range of numbers.
+#[inline(always)]
+fn norm<V: VectorSpace>(x: &V) -> f64 {
+    let squared = x.norm_squared();
+    if (1e-280..1e300).contains(&squared) {
+        squared.sqrt()
+    } else {
+        x.max_magnitude()
+    }
+}
+
 impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
+    /// Forgets what steps before have left, where it may be what made a step fail.
+    fn forget(&mut self) {
+        self.warm.forget();
+        self.solver.forget();
+    }
+
     /// Iterates from the coordinates in `c` until the residual is within the tolerance.
     fn iterate<R: Retraction>(
         &mut self,
@@ -256,36 +306,33 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     ) -> Solved {
         let (mut best, mut last, mut scale) = (f64::INFINITY, f64::INFINITY, 0.0);
         for iterations in 1..=MAX_ITERATIONS {
-            let residual = self.evaluate::<R>(lagrangian, state, h);
+            let norm = self.evaluate::<R>(lagrangian, state, h);
             if iterations == 1 {
                 scale = self.scale(state);
             }
-            // A system at rest has no scale, and no residual either.
-            let residual = if residual == 0.0 {
-                0.0
-            } else {
-                residual / scale
-            };
+            let residual = relative(norm, scale);
             if residual <= tolerance {
-                let (residual, more) =
-                    self.finish_cyclic::<R>(lagrangian, state, h, scale, residual);
+                let more = self.finish_cyclic::<R>(lagrangian, state, h);
+                let residual = relative(self::norm(&self.balance.residual), scale);
                 let report = StepReport {
                     iterations: iterations + more,
                     residual,
                 };
                 return Solved {
                     report,
-                    converged: true,
+                    converged: residual <= tolerance,
+                    started: true,
                 };
             }
             if !residual.is_finite() {
                 let report = StepReport {
                     iterations,
-                    residual: best.min(residual),
+                    residual: best,
                 };
                 return Solved {
                     report,
                     converged: false,
+                    started: iterations > 1,
                 };
             }
             best = best.min(residual);
@@ -298,12 +345,14 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 .solve(lagrangian, &self.balance.residual, &mut self.delta);
             self.c.add_scaled(-1.0, &self.delta);
         }
+        let report = StepReport {
+            iterations: MAX_ITERATIONS,
+            residual: best,
+        };
         Solved {
-            report: StepReport {
-                iterations: MAX_ITERATIONS,
-                residual: best,
-            },
+            report,
             converged: false,
+            started: true,
         }
     }
 
@@ -314,16 +363,12 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         let (f, c) = (&mut self.balance.f, &mut self.c);
         self.solver.eliminate(lagrangian, &state.mu, h, f, c);
         self.balance.evaluate(lagrangian, &state.g, &state.mu, h);
-        self.balance.residual.norm_squared().sqrt()
+        norm(&self.balance.residual)
     }
 
     /// The size of the momenta that balance: the scale of the residual.
     fn scale(&self, state: &State<L::Group>) -> f64 {
-        let (before, after) = (
-            state.mu.norm_squared(),
-            self.balance.transported.norm_squared(),
-        );
-        before.max(after).sqrt()
+        norm(&state.mu).max(norm(&self.balance.transported))
     }
 
     /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance.
@@ -332,11 +377,8 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         lagrangian: &L,
         state: &State<L::Group>,
         h: f64,
-        scale: f64,
-        residual: f64,
-    ) -> (f64, u32) {
+    ) -> u32 {
         let cyclic = lagrangian.cyclic();
-        let mut residual = residual;
         for more in 0..CYCLIC_ITERATIONS {
             let left = &self.balance.residual;
             let solved = cyclic.clone().all(|i| left.get(i) == 0.0);
@@ -345,13 +387,19 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                     .solver
                     .solve_cyclic(left, cyclic.clone(), &mut self.delta)
             {
-                return (residual, more);
+                return more;
             }
             self.c.add_scaled(-1.0, &self.delta);
-            residual = self.evaluate::<R>(lagrangian, state, h) / scale;
+            self.evaluate::<R>(lagrangian, state, h);
         }
-        (residual, CYCLIC_ITERATIONS)
+        CYCLIC_ITERATIONS
     }
+}
+
+/// A system at rest has no scale, and no residual either.
+#[inline(always)]
+fn relative(norm: f64, scale: f64) -> f64 {
+    if norm == 0.0 { 0.0 } else { norm / scale }
 }
 
 impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Variational<L, M, R> {
@@ -372,16 +420,19 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
     /// The Hamiltonian form $(g_k, \mu_k) \mapsto (g_{k+1}, \mu_{k+1})$, (39)–(46).
     fn step(&mut self, state: &mut State<L::Group>, h: f64) -> Result<StepReport, StepError> {
         let report = self.solve(state, h)?;
-        let normalize = self.steps % NORMALIZE_EVERY == NORMALIZE_EVERY - 1;
+        let (normalizes, step, t) = (self.normalizes(), self.steps, state.t);
         let work = self.work(&state.g);
         state.g.compose_into(&work.balance.f, &mut work.next);
-        if normalize {
+        if normalizes {
             work.next.normalize();
+        }
+        if !work.next.is_finite() {
+            return Err(StepError::NotFinite { step, t, h });
         }
         core::mem::swap(&mut state.g, &mut work.next);
         core::mem::swap(&mut state.mu, &mut work.balance.transported);
         state.t += h;
-        self.steps += 1;
+        self.accept(h);
         Ok(report)
     }
 }

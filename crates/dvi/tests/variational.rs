@@ -8,6 +8,7 @@ use dvi::{
 };
 use lie::{
     AlgebraOver, Cotangent, Exp, LieGroup, Mat3, Over, Power, R3, Rn, SO3, Scalar, Tangent, Vec3,
+    VectorSpace,
 };
 
 /// Any number of heavy tops that do not feel each other, on a power of run-time size.
@@ -244,16 +245,101 @@ fn a_refused_step_changes_nothing_and_says_what_to_try() {
     assert_eq!(state, before);
     // The refusal leaves no trace: the next step is that of an integrator that never saw it.
     let (mut other, mut fresh) = (before, Variational::new(Tops));
-    integrator.step(&mut state, 0.01).unwrap();
-    fresh.step(&mut other, 0.01).unwrap();
-    let apart = state.g[0]
-        .inverse()
-        .compose(&other.g[0])
-        .log()
-        .unwrap()
-        .vec3()
-        .norm();
-    assert!(apart < 1e-14, "{apart:e}");
+    let reports = [
+        integrator.step(&mut state, 0.01),
+        fresh.step(&mut other, 0.01),
+    ];
+    assert_eq!(reports[0], reports[1]);
+    assert_eq!(state, other);
+}
+
+/// A matrix left over from a state a thousand times faster must not spoil the next step.
+#[test]
+fn a_wild_state_does_not_poison_the_integrator() {
+    let (mut wild, mut integrator) = (tops(1), Variational::new(Tops));
+    wild.mu[0] = wild.mu[0] * 1e3;
+    integrator.step(&mut wild, 0.1).unwrap_err();
+    let (mut state, mut other) = (tops(1), tops(1));
+    integrator.step(&mut state, 0.1).unwrap();
+    Variational::new(Tops).step(&mut other, 0.1).unwrap();
+    assert_eq!(state, other);
+}
+
+/// Looking ahead is no step: what follows is the same, to the number of iterations.
+#[test]
+fn a_displacement_leaves_the_integrator_as_it_was() {
+    let (mut a, mut b) = (tops(1), tops(1));
+    let (mut asked, mut plain) = (Variational::new(Tops), Variational::new(Tops));
+    for _ in 0..50 {
+        asked.displacement(&a, 0.01).unwrap();
+        let reports = [asked.step(&mut a, 0.01), plain.step(&mut b, 0.01)];
+        assert_eq!(
+            reports[0].unwrap().iterations,
+            reports[1].unwrap().iterations
+        );
+    }
+}
+
+/// The cyclic equation of this Lagrangian cannot be solved by its own block, which is singular.
+struct Singular;
+
+impl DiscreteLagrangian for Singular {
+    type Group = Rn<2>;
+
+    fn value<S: Scalar>(&self, _: &Rn<2, S>, f: &Rn<2, S>, h: S) -> S {
+        let [a, b] = f.0.map(|x| x / h);
+        h * (a * b * S::from_f64(0.7) + a * b * b * b * S::from_f64(0.3))
+    }
+
+    fn cyclic(&self) -> Range<usize> {
+        0..1
+    }
+}
+
+#[test]
+fn no_number_that_is_not_finite_leaves_as_ok() {
+    let mut state = State {
+        t: 0.0,
+        g: Rn([0.0, 0.0]),
+        mu: Cotangent([0.3, 0.2]),
+    };
+    let mut integrator = Variational::new(Singular);
+    for _ in 0..5 {
+        if let Ok(report) = integrator.step(&mut state, 0.01) {
+            assert!(report.residual.is_finite());
+        }
+        assert!(state.g.is_finite() && state.mu.max_magnitude().is_finite());
+    }
+    let mut state = off_centre();
+    state.g.1.0[0] = f64::NAN;
+    let error = Variational::new(OffCentre)
+        .step(&mut state, 0.01)
+        .unwrap_err();
+    assert!(matches!(error, StepError::NotFinite { .. }), "{error}");
+    let mut state = State {
+        t: f64::NAN,
+        ..off_centre()
+    };
+    let error = Variational::new(OffCentre)
+        .step(&mut state, 0.01)
+        .unwrap_err();
+    assert!(matches!(error, StepError::NotFinite { .. }), "{error}");
+}
+
+/// Momenta whose squares are no numbers any more.
+#[test]
+fn tiny_and_huge_momenta_are_stepped() {
+    for scale in [1e-170, 1e-100, 1e100] {
+        let mut state = State {
+            g: (SO3::identity(), R3::identity()),
+            ..off_centre()
+        };
+        state.mu = (state.mu.0 * scale, state.mu.1 * scale);
+        let h = if scale > 1.0 { 1e-2 / scale } else { 1e-2 };
+        let report = Variational::new(OffCentre).step(&mut state, h).unwrap();
+        assert!(report.residual <= 1e-13);
+        assert!(state.g.1.vec3().norm() > 0.0, "it moved");
+    }
 }
 
 #[test]

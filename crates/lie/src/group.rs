@@ -138,6 +138,12 @@ pub trait LieGroup: Clone + Debug + PartialEq {
         Self::dexp_inv(xi, eta)
     }
 
+    /// Whether every number of the element is finite; by the logarithm unless given.
+    fn is_finite(&self) -> bool {
+        let log = self.log().unwrap_or_else(|e| e.representative);
+        log.max_magnitude().is_finite()
+    }
+
     /// Pulls an element that rounding has moved off the group back to it.
     #[inline(always)]
     fn normalize(&mut self) {}

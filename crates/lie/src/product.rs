@@ -199,6 +199,10 @@ macro_rules! tuple {
                 ($($G::dcay_inv(&xi.$i, &eta.$i),)+)
             }
             #[inline(always)]
+            fn is_finite(&self) -> bool {
+                $(self.$i.is_finite())&&+
+            }
+            #[inline(always)]
             fn normalize(&mut self) {
                 $(self.$i.normalize();)+
             }
@@ -399,6 +403,10 @@ macro_rules! repeated {
             #[inline(always)]
             fn dcay_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
                 $map(xi.len(), |i: usize| $G::dcay_inv(&xi[i], &eta[i]))
+            }
+            #[inline(always)]
+            fn is_finite(&self) -> bool {
+                self.iter().all(LieGroup::is_finite)
             }
             #[inline(always)]
             fn normalize(&mut self) {

@@ -98,6 +98,11 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
     }
 
     #[inline(always)]
+    fn is_finite(&self) -> bool {
+        self.0.iter().all(|x| x.magnitude().is_finite())
+    }
+
+    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
         *mu
     }

@@ -53,7 +53,7 @@ impl<S: Scalar> SE3<S> {
         (v + w.cross(v) * S::from_f64(0.5) + w * (w.dot(v) * quarter)) * scale
     }
 
-    /// $\sum_k a_k \mathrm{ad}\_\xi^k \eta$ for $k = 0, \dots, 4$.
+    /// $\eta + \sum_k a_k \mathrm{ad}\_\xi^k \eta$ for $k = 1, \dots, 4$.
     #[inline(always)]
     fn ad_polynomial(xi: &Tangent<6, S>, eta: &Tangent<6, S>, a: [S; 4]) -> Tangent<6, S> {
         let mut power = *eta;
@@ -139,6 +139,11 @@ impl<S: Scalar> LieGroup for SE3<S> {
     fn bracket(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
         let ((w, v), (a, b)) = (xi.split(), eta.split());
         (w.cross(a), w.cross(b) + v.cross(a)).into()
+    }
+
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        self.rotation.is_finite() && self.translation.is_finite()
     }
 
     #[inline(always)]

@@ -59,6 +59,12 @@ impl<S: Scalar> Vec3<S> {
         self.dot(self)
     }
 
+    /// Whether every entry is finite.
+    #[inline(always)]
+    pub fn is_finite(self) -> bool {
+        (self[0].magnitude() + self[1].magnitude() + self[2].magnitude()).is_finite()
+    }
+
     /// $|x|$; not differentiable at zero.
     #[inline(always)]
     pub fn norm(self) -> S {

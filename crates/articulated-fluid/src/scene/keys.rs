@@ -156,7 +156,11 @@ pub fn reference() -> String {
             default,
             meaning,
         } = key;
-        format!("{path}: {value}\n    {meaning}\n    default: {default}\n")
+        let default = match *default {
+            REQUIRED => REQUIRED.to_owned(),
+            default => format!("default: {default}"),
+        };
+        format!("{path}: {value}\n    {meaning}\n    {default}\n")
     };
     KEYS.iter().map(entry).collect()
 }
