@@ -338,7 +338,7 @@ fn tiny_and_huge_momenta_are_stepped() {
         let h = if scale > 1.0 { 1e-2 / scale } else { 1e-2 };
         let report = Variational::new(OffCentre).step(&mut state, h).unwrap();
         assert!(report.residual <= 1e-13);
-        assert!(state.g.1.vec3().norm() > 0.0, "it moved");
+        assert!(state.g.1.0.iter().all(|x| *x != 0.0), "it moved");
     }
 }
 
