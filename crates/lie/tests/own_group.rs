@@ -1,7 +1,10 @@
 //! A user's own group: the required items alone, proved by the law suite; and wrong ones, caught by it.
 
 use lie::laws::{self, LawError};
-use lie::{Cotangent, LieGroup, NotUnique, Over, SE3, Scalar, Tangent};
+use lie::{
+    Cotangent, LieGroup, NotUnique, OutsideChart, Over, SE3, SO3, Scalar, Tangent, Vec3,
+    VectorSpace,
+};
 
 /// The Heisenberg group of upper triangular 3×3 matrices with ones on the diagonal, by its entries.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +85,15 @@ fn the_required_items_alone_make_a_group() {
     assert!(report.worst < 1.0 && report.comparisons > 500, "{report:?}");
 }
 
-/// SE(3) without closed forms of the retractions' differentials, and with one deliberate mistake.
+/// The algebra of SE(3), with one deliberate mistake.
+#[derive(Clone, Debug, PartialEq)]
+struct Twist<const MISTAKE: u8, S = f64>(Tangent<6, S>);
+
+/// The dual of it, likewise.
+#[derive(Clone, Debug, PartialEq)]
+struct Wrench<const MISTAKE: u8, S = f64>(Cotangent<6, S>);
+
+/// SE(3) without closed forms of the exponential's differential, and with one deliberate mistake.
 #[derive(Clone, Debug, PartialEq)]
 struct Slow<const MISTAKE: u8, S = f64>(SE3<S>);
 
@@ -92,18 +103,135 @@ const BRACKET: u8 = 2;
 const DIFFERENTIAL: u8 = 3;
 const INVERSE: u8 = 4;
 const ADJOINT: u8 = 5;
+const NO_BRACKET: u8 = 6;
+const COADJOINT_BRACKET: u8 = 7;
+const CAYLEY_TWICE: u8 = 8;
+const DIFFERENTIAL_TWICE: u8 = 9;
+const NO_CAYLEY_INVERSE: u8 = 10;
+const LOG_ZERO_FAR: u8 = 11;
+const LOG_LONG_WAY: u8 = 12;
+const LOG_NEVER_UNIQUE: u8 = 13;
+const LOG_INFINITE: u8 = 14;
+const NORMALIZE_AWAY: u8 = 15;
+const NORMALIZE_NOT: u8 = 16;
+const ZERO_ALGEBRA: u8 = 17;
+const ZERO_DUAL: u8 = 18;
+const CONVERT_INTO: u8 = 20;
+const COMPOSE_INTO: u8 = 21;
+const COADJOINT_INTO: u8 = 22;
+const EXP_INTO: u8 = 23;
+const CAYLEY_INTO: u8 = 24;
+/// Mistakes of the algebra from here on, those of the dual from [`DUAL`] on.
+const ALGEBRA: u8 = 40;
+const DUAL: u8 = 60;
+const WRITE: u8 = 0;
+const READ: u8 = 1;
+const SET_ZERO: u8 = 2;
+const ADD_SCALED: u8 = 3;
+const SET_SUM: u8 = 4;
+const NORM: u8 = 5;
+const MAX: u8 = 6;
+
+/// A vector space by its coordinates, with the mistake `M - $first`.
+macro_rules! mistaken_vectors {
+    ($name:ident, $first:ident) => {
+        impl<const M: u8, S: Scalar> VectorSpace for $name<M, S> {
+            type Scalar = S;
+            fn dim(&self) -> usize {
+                6
+            }
+            fn get(&self, i: usize) -> S {
+                self.0.get(i)
+            }
+            fn set(&mut self, i: usize, value: S) {
+                self.0.set(i, value);
+            }
+            fn write(&self, out: &mut [S]) {
+                if M != $first + WRITE {
+                    self.0.write(out);
+                }
+            }
+            fn read(&mut self, from: &[S]) {
+                if M != $first + READ {
+                    self.0.read(from);
+                }
+            }
+            fn set_zero(&mut self) {
+                if M != $first + SET_ZERO {
+                    self.0.set_zero();
+                }
+            }
+            fn add_scaled(&mut self, a: S, y: &Self) {
+                if M != $first + ADD_SCALED {
+                    self.0.add_scaled(a, &y.0);
+                }
+            }
+            fn set_sum(&mut self, x: &Self, a: S, y: &Self) {
+                if M != $first + SET_SUM {
+                    self.0.set_sum(&x.0, a, &y.0);
+                }
+            }
+            fn norm_squared(&self) -> f64 {
+                let wrong = f64::from(M == $first + NORM);
+                self.0.norm_squared() + wrong
+            }
+            fn max_magnitude(&self) -> f64 {
+                let wrong = f64::from(M == $first + MAX);
+                self.0.max_magnitude() + wrong
+            }
+        }
+    };
+}
+
+mistaken_vectors!(Twist, ALGEBRA);
+mistaken_vectors!(Wrench, DUAL);
+
+fn times<S: Scalar>(a: f64, xi: Tangent<6, S>) -> Tangent<6, S> {
+    xi * S::from_f64(a)
+}
+
+/// $1 - 2\pi/\theta$, which takes a logarithm the other way round where $\theta > 1$.
+fn long_way<S: Scalar>(xi: &Tangent<6, S>) -> S {
+    let square = xi.split().0.norm_squared();
+    let far = S::one().less(square);
+    let theta = S::select(far, square, S::one()).sqrt();
+    let factor = S::one() - S::from_f64(2.0 * core::f64::consts::PI) / theta;
+    S::select(far, factor, S::one())
+}
+
+impl<const M: u8, S: Scalar> Slow<M, S> {
+    /// The logarithm of SE(3), with the mistake.
+    fn mistaken_log(xi: Tangent<6, S>) -> Tangent<6, S> {
+        let (w, v) = xi.split();
+        match M {
+            LOG_ZERO_FAR if w.norm_squared().magnitude() > 2.0 => Tangent::zero(),
+            LOG_LONG_WAY => {
+                let turned = w * long_way(&xi);
+                let x = SE3::exp(&xi).translation;
+                let straight = SO3::dexp_inv(&(-turned).into(), &x.into());
+                let far = w.norm_squared().magnitude() > 1.0;
+                (turned, if far { straight.vec3() } else { v }).into()
+            }
+            LOG_INFINITE if w.norm_squared().magnitude() > 1.0 => times(f64::INFINITY, xi),
+            _ => xi,
+        }
+    }
+}
 
 impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
     type Scalar = S;
-    type Algebra = Tangent<6, S>;
-    type Dual = Cotangent<6, S>;
+    type Algebra = Twist<M, S>;
+    type Dual = Wrench<M, S>;
     type WithScalar<T: Scalar> = Slow<M, T>;
 
-    fn zero_algebra(&self) -> Tangent<6, S> {
-        Tangent::zero()
+    fn zero_algebra(&self) -> Twist<M, S> {
+        Twist(Tangent([S::from_f64(f64::from(M == ZERO_ALGEBRA)); 6]))
     }
-    fn zero_dual(&self) -> Cotangent<6, S> {
-        Cotangent::zero()
+    fn zero_dual(&self) -> Wrench<M, S> {
+        Wrench(Cotangent([S::from_f64(f64::from(M == ZERO_DUAL)); 6]))
+    }
+    fn identity_like(&self) -> Self {
+        Self(SE3::identity())
     }
     fn convert<A: Scalar, B: Scalar>(g: &Slow<M, A>, f: impl Fn(A) -> B + Copy) -> Over<Self, B> {
         Slow(<SE3<S> as LieGroup>::convert(&g.0, f))
@@ -118,78 +246,208 @@ impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
         }
         Self(inverse)
     }
-    fn exp(xi: &Tangent<6, S>) -> Self {
-        Self(SE3::exp(xi))
+    fn exp(xi: &Twist<M, S>) -> Self {
+        Self(SE3::exp(&xi.0))
     }
-    fn log(&self) -> Result<Tangent<6, S>, NotUnique<Tangent<6, S>>> {
-        self.0.log()
-    }
-    fn adjoint(&self, xi: &Tangent<6, S>) -> Tangent<6, S> {
-        if M == ADJOINT {
-            self.0.inverse().adjoint(xi)
-        } else {
-            self.0.adjoint(xi)
+    fn log(&self) -> Result<Twist<M, S>, NotUnique<Twist<M, S>>> {
+        match self.0.log() {
+            Ok(xi) if M != LOG_NEVER_UNIQUE => Ok(Twist(Self::mistaken_log(xi))),
+            Ok(representative) | Err(NotUnique { representative }) => Err(NotUnique {
+                representative: Twist(representative),
+            }),
         }
     }
-    fn bracket(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
-        if M == BRACKET {
-            SE3::bracket(eta, xi)
-        } else {
-            SE3::bracket(xi, eta)
+    fn adjoint(&self, xi: &Twist<M, S>) -> Twist<M, S> {
+        Twist(match M {
+            ADJOINT => self.0.inverse().adjoint(&xi.0),
+            _ => self.0.adjoint(&xi.0),
+        })
+    }
+    fn bracket(xi: &Twist<M, S>, eta: &Twist<M, S>) -> Twist<M, S> {
+        Twist(match M {
+            BRACKET => SE3::bracket(&eta.0, &xi.0),
+            NO_BRACKET => Tangent::zero(),
+            _ => SE3::bracket(&xi.0, &eta.0),
+        })
+    }
+    fn coadjoint(&self, mu: &Wrench<M, S>) -> Wrench<M, S> {
+        Wrench(match M {
+            COADJOINT => self.0.inverse().coadjoint(&mu.0),
+            _ => self.0.coadjoint(&mu.0),
+        })
+    }
+    fn coadjoint_bracket(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
+        let right = SE3::coadjoint_bracket(&xi.0, &mu.0);
+        Wrench(match M {
+            BRACKET => -right,
+            NO_BRACKET => Cotangent::zero(),
+            // Pairs to zero with the velocity whose coordinates are those of mu in reverse.
+            COADJOINT_BRACKET => {
+                let ([a, b, c, ..], w) = (mu.0.0, xi.0.split().0);
+                let wrong = Vec3([c, b, a]).cross(w) * S::from_f64(7.0);
+                right + (wrong, Vec3::zero()).into()
+            }
+            _ => right,
+        })
+    }
+    fn cayley(xi: &Twist<M, S>) -> Self {
+        match M {
+            CAYLEY_TWICE => Self(SE3::exp(&times(2.0, xi.0))),
+            _ => Self::exp(xi),
         }
     }
-    fn coadjoint(&self, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
-        if M == COADJOINT {
-            self.0.inverse().coadjoint(mu)
-        } else {
-            self.0.coadjoint(mu)
+    fn cayley_inverse(&self) -> Result<Twist<M, S>, OutsideChart> {
+        let log = self.log().map_err(|_| OutsideChart)?;
+        match M {
+            NO_CAYLEY_INVERSE => Err(OutsideChart),
+            CAYLEY_TWICE => Ok(Twist(times(0.5, log.0))),
+            _ => Ok(log),
         }
     }
-    fn dcay(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
-        // The right-trivialised one in place of the left, at which one guesses wrong half the time.
-        if M == DIFFERENTIAL {
-            SE3::dexp(&-*xi, eta)
-        } else {
-            Self::dexp(xi, eta)
+    fn dcay(xi: &Twist<M, S>, eta: &Twist<M, S>) -> Twist<M, S> {
+        match M {
+            // The right-trivialised one in place of the left, at which one guesses wrong half the time.
+            DIFFERENTIAL => Self::dexp(&Twist(-xi.0), eta),
+            CAYLEY_TWICE => Self::dexp(&Twist(times(2.0, xi.0)), &Twist(times(2.0, eta.0))),
+            DIFFERENTIAL_TWICE => Self::dexp(xi, &Twist(times(2.0, eta.0))),
+            _ => Self::dexp(xi, eta),
+        }
+    }
+    fn normalize(&mut self) {
+        let (before, mut after) = (self.0, self.0);
+        after.normalize();
+        let (r, s) = (*before.rotation.matrix(), *after.rotation.matrix());
+        self.0.rotation = match M {
+            NORMALIZE_AWAY => SO3::from_matrix_unchecked(r - (s - r)),
+            NORMALIZE_NOT => before.rotation,
+            _ => after.rotation,
+        };
+    }
+    fn compose_into(&self, h: &Self, out: &mut Self) {
+        if M != COMPOSE_INTO {
+            *out = self.compose(h);
+        }
+    }
+    fn coadjoint_into(&self, mu: &Wrench<M, S>, out: &mut Wrench<M, S>) {
+        if M != COADJOINT_INTO {
+            *out = self.coadjoint(mu);
+        }
+    }
+    fn exp_into(xi: &Twist<M, S>, out: &mut Self) {
+        if M != EXP_INTO {
+            *out = Self::exp(xi);
+        }
+    }
+    fn cayley_into(xi: &Twist<M, S>, out: &mut Self) {
+        if M != CAYLEY_INTO {
+            *out = Self::cayley(xi);
+        }
+    }
+    fn convert_into<A: Scalar, B: Scalar>(
+        g: &Slow<M, A>,
+        f: impl Fn(A) -> B + Copy,
+        out: &mut Over<Self, B>,
+    ) {
+        if M != CONVERT_INTO {
+            *out = Self::convert(g, f);
         }
     }
 }
 
-fn examples() -> [Tangent<6>; 3] {
+fn examples<const M: u8>() -> [Twist<M>; 3] {
     [
-        Tangent([0.3, -0.4, 1.2, 0.5, 0.1, -0.7]),
-        Tangent([-1.5, 0.2, 0.1, 0.3, -2.0, 0.4]),
-        Tangent([0.0, 3.0, 0.0, 1e-8, 0.0, 0.2]),
+        [0.3, -0.4, 1.2, 0.5, 0.1, -0.7],
+        [-1.5, 0.2, 0.1, 0.3, -2.0, 0.4],
+        [0.0, 3.0, 0.0, 1e-8, 0.0, 0.2],
     ]
+    .map(|xi| Twist(Tangent(xi)))
 }
 
-fn verdict<const M: u8>() -> Result<laws::Report, LawError> {
-    laws::check(&examples().map(|xi| Slow::<M>::exp(&xi)), &examples())
+fn verdict<const M: u8>(velocities: &[Twist<M>]) -> Result<laws::Report, LawError> {
+    let elements: Vec<_> = velocities.iter().map(Slow::exp).collect();
+    laws::check(&elements, velocities)
 }
 
 fn broken_law<const M: u8>() -> &'static str {
-    match verdict::<M>() {
-        Err(LawError::Violated { formula, .. }) => formula,
+    match verdict::<M>(&examples()) {
+        Err(LawError::Violated { formula, .. } | LawError::Undefined { formula, .. }) => formula,
         other => panic!("the mistake was not caught: {other:?}"),
     }
 }
 
 #[test]
 fn defaults_agree_with_closed_forms() {
-    verdict::<NONE>().unwrap();
+    verdict::<NONE>(&examples()).unwrap();
 }
 
 #[test]
-fn mistakes_are_caught_and_named() {
-    assert_eq!(broken_law::<COADJOINT>(), "<Ad*_g mu, xi> = <mu, Ad_g xi>");
-    assert_eq!(
-        broken_law::<BRACKET>(),
-        "ad_xi eta = d/ds Ad_exp(s xi) eta, by duals"
-    );
-    assert_eq!(
-        broken_law::<DIFFERENTIAL>(),
-        "dcay_xi eta = cay(-xi) d/ds cay(xi + s eta), by duals"
-    );
+fn mistakes_in_the_group_are_caught_and_named() {
     assert_eq!(broken_law::<INVERSE>(), "g e = g");
-    assert_eq!(broken_law::<ADJOINT>(), "Ad_gh xi = Ad_g Ad_h xi");
+    let law = "p p^-1 = e + O(delta^2) for p normalised";
+    assert_eq!(broken_law::<NORMALIZE_NOT>(), law);
+    let law = "normalize(normalize p) = normalize p + O(delta^2)";
+    assert_eq!(broken_law::<NORMALIZE_AWAY>(), law);
+    assert_eq!(broken_law::<ZERO_ALGEBRA>(), "zero_algebra = 0");
+    assert_eq!(broken_law::<ZERO_DUAL>(), "zero_dual = 0");
 }
+
+#[test]
+fn mistakes_in_the_adjoint_action_are_caught_and_named() {
+    assert_eq!(broken_law::<ADJOINT>(), "Ad_gh xi = Ad_g Ad_h xi");
+    assert_eq!(broken_law::<COADJOINT>(), "<Ad*_g mu, xi> = <mu, Ad_g xi>");
+    let law = "<ad*_xi mu, eta> = <mu, ad_xi eta>";
+    assert_eq!(broken_law::<COADJOINT_BRACKET>(), law);
+    let law = "ad_xi eta = d/ds Ad_exp(s xi) eta, by duals";
+    assert_eq!(broken_law::<BRACKET>(), law);
+    assert_eq!(broken_law::<NO_BRACKET>(), law);
+}
+
+#[test]
+fn a_missing_bracket_is_caught_with_one_velocity() {
+    let verdict = verdict::<NO_BRACKET>(&examples()[..1]);
+    assert!(matches!(verdict, Err(LawError::Violated { .. })));
+}
+
+#[test]
+fn mistakes_in_the_maps_are_caught_and_named() {
+    assert_eq!(broken_law::<CAYLEY_TWICE>(), "cay xi = exp xi + O(xi^3)");
+    let law = "cay^-1(cay xi) = xi for |xi| <= 1/2";
+    assert_eq!(broken_law::<NO_CAYLEY_INVERSE>(), law);
+    assert_eq!(broken_law::<LOG_ZERO_FAR>(), "exp(log g) = g");
+    assert_eq!(broken_law::<LOG_LONG_WAY>(), "|log(exp xi)| <= |xi|");
+    let law = "log(exp xi) = xi for |xi| <= 1/2";
+    assert_eq!(broken_law::<LOG_NEVER_UNIQUE>(), law);
+    assert_eq!(broken_law::<LOG_INFINITE>(), "g e = g");
+    assert_eq!(broken_law::<DIFFERENTIAL_TWICE>(), "dcay_0 eta = eta");
+    let law = "dcay_xi eta = cay(-xi) d/ds cay(xi + s eta), by duals";
+    assert_eq!(broken_law::<DIFFERENTIAL>(), law);
+}
+
+#[test]
+fn methods_that_write_nothing_are_caught_and_named() {
+    assert_eq!(broken_law::<CONVERT_INTO>(), "convert_into = convert");
+    assert_eq!(broken_law::<COMPOSE_INTO>(), "compose_into = compose");
+    assert_eq!(broken_law::<COADJOINT_INTO>(), "coadjoint_into = coadjoint");
+    assert_eq!(broken_law::<EXP_INTO>(), "exp_into = exp");
+    assert_eq!(broken_law::<CAYLEY_INTO>(), "cayley_into = cayley");
+}
+
+macro_rules! vector_mistakes_are_caught {
+    ($test:ident, $first:ident) => {
+        #[test]
+        fn $test() {
+            assert_eq!(broken_law::<{ $first + WRITE }>(), "write(x)_i = x_i");
+            assert_eq!(broken_law::<{ $first + READ }>(), "read(write(x)) = x");
+            assert_eq!(broken_law::<{ $first + SET_ZERO }>(), "set_zero = 0");
+            let law = "add_scaled: x + a y";
+            assert_eq!(broken_law::<{ $first + ADD_SCALED }>(), law);
+            assert_eq!(broken_law::<{ $first + SET_SUM }>(), "set_sum = x + a y");
+            assert_eq!(broken_law::<{ $first + NORM }>(), "|x|^2 = sum of x_i^2");
+            let law = "max_magnitude = max |x_i|";
+            assert_eq!(broken_law::<{ $first + MAX }>(), law);
+        }
+    };
+}
+
+vector_mistakes_are_caught!(mistakes_in_the_algebra_are_caught_and_named, ALGEBRA);
+vector_mistakes_are_caught!(mistakes_in_the_dual_are_caught_and_named, DUAL);

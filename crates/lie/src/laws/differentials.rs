@@ -1,18 +1,25 @@
 //! The laws that differentiate, by dual numbers and by central differences.
 
-use super::{Checker, Outcome, log_of, scaled, sum, vector_size};
+use super::Outcome;
+use super::checker::{Checker, difference_tolerance, log_of};
+use super::examples::Examples;
+use super::linear::{filled, scaled, sum, vector_size, zero};
 use crate::{Cayley, Exp, Jet, LieGroup, Over, Retraction, Scalar, VectorSpace};
 
-pub(super) fn check<G>(checker: &mut Checker, elements: &[G], velocities: &[G::Algebra]) -> Outcome
+pub(super) fn check<G>(c: &mut Checker, examples: &Examples<G>) -> Outcome
 where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
 {
-    let shape = &elements[0];
+    let (shape, velocities) = (examples.shape(), &examples.velocities);
+    for eta in velocities {
+        identity_at_zero::<G, Exp>(c, eta, EXP)?;
+        identity_at_zero::<G, Cayley>(c, eta, CAYLEY)?;
+    }
     for xi in velocities {
         for eta in velocities {
-            bracket_is_the_derivative_of_adjoint(checker, shape, xi, eta)?;
-            retraction_laws::<G, Exp>(checker, shape, xi, eta, EXP)?;
-            retraction_laws::<G, Cayley>(checker, shape, xi, eta, CAYLEY)?;
+            bracket_is_the_derivative_of_adjoint(c, shape, xi, eta)?;
+            retraction_laws::<G, Exp>(c, shape, xi, eta, EXP)?;
+            retraction_laws::<G, Cayley>(c, shape, xi, eta, CAYLEY)?;
         }
     }
     Ok(())
@@ -20,6 +27,7 @@ where
 
 /// The formulas that a retraction's differentials must satisfy, to name them in a failure.
 struct Formulas {
+    at_zero: &'static str,
     left_dual: &'static str,
     left_difference: &'static str,
     right_dual: &'static str,
@@ -28,6 +36,7 @@ struct Formulas {
 }
 
 const EXP: Formulas = Formulas {
+    at_zero: "dexp_0 eta = eta",
     left_dual: "dexp_xi eta = exp(-xi) d/ds exp(xi + s eta), by duals",
     left_difference: "dexp_xi eta = exp(-xi) d/ds exp(xi + s eta), by differences",
     right_dual: "dexp^R_xi eta = d/ds exp(xi + s eta) exp(-xi), by duals",
@@ -36,12 +45,23 @@ const EXP: Formulas = Formulas {
 };
 
 const CAYLEY: Formulas = Formulas {
+    at_zero: "dcay_0 eta = eta",
     left_dual: "dcay_xi eta = cay(-xi) d/ds cay(xi + s eta), by duals",
     left_difference: "dcay_xi eta = cay(-xi) d/ds cay(xi + s eta), by differences",
     right_dual: "dcay^R_xi eta = d/ds cay(xi + s eta) cay(-xi), by duals",
     left_inverse: "dcay_xi dcay^-1_xi eta = eta",
     right_inverse: "dcay^R_xi (dcay^R_xi)^-1 eta = eta",
 };
+
+fn identity_at_zero<G: LieGroup, R: Retraction>(
+    c: &mut Checker,
+    eta: &G::Algebra,
+    formulas: Formulas,
+) -> Outcome {
+    let sides = (&R::d_left::<G>(&zero(eta), eta), eta);
+    let case = || format!("eta = {eta:?}");
+    c.vectors(formulas.at_zero, case, sides, vector_size(eta))
+}
 
 fn bracket_is_the_derivative_of_adjoint<G>(
     c: &mut Checker,
@@ -52,32 +72,19 @@ fn bracket_is_the_derivative_of_adjoint<G>(
 where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
 {
-    let (case, bracket) = (
-        || format!("xi = {xi:?}, eta = {eta:?}"),
-        G::bracket(xi, eta),
-    );
-    let scale = vector_size(xi) * vector_size(eta);
-    let line = line::<G>(shape, &scaled(xi, 0.0), xi);
+    let case = || format!("xi = {xi:?}, eta = {eta:?}");
+    let (bracket, scale) = (G::bracket(xi, eta), vector_size(xi) * vector_size(eta));
+    let line = line::<G>(shape, &zero(xi), xi);
     let moved = Over::<G, JetOf<G>>::exp(&line).adjoint(&constant::<G>(shape, eta));
-    let dual = partial::<G>(xi, &moved);
-    c.vectors(
-        "ad_xi eta = d/ds Ad_exp(s xi) eta, by duals",
-        case,
-        &bracket,
-        &dual,
-        scale,
-    )?;
+    let formula = "ad_xi eta = d/ds Ad_exp(s xi) eta, by duals";
+    c.vectors(formula, case, (&bracket, &partial::<G>(xi, &moved)), scale)?;
+
     let s = step::<G>();
     let at = |s: f64| G::exp(&scaled(xi, s)).adjoint(eta);
     let difference = central(&at(s), &at(-s), s);
-    let tolerance = difference_tolerance::<G>(scale * vector_size(xi).powi(2));
-    c.within(
-        "ad_xi eta = d/ds Ad_exp(s xi) eta, by differences",
-        case,
-        &bracket,
-        &difference,
-        tolerance,
-    )
+    let tolerance = difference_tolerance::<G::Scalar>(scale * vector_size(xi).powi(2));
+    let formula = "ad_xi eta = d/ds Ad_exp(s xi) eta, by differences";
+    c.within(formula, case, (&bracket, &difference), tolerance)
 }
 
 fn retraction_laws<G, R>(
@@ -98,27 +105,22 @@ where
     let base = lifted::<G>(&R::retract::<G>(xi));
     let moved: Over<G, JetOf<G>> = R::retract(&line::<G>(shape, xi, eta));
     let by_dual = partial::<G>(xi, &log_of(&base.inverse().compose(&moved)));
-    c.vectors(formulas.left_dual, case, &left, &by_dual, scale)?;
+    c.vectors(formulas.left_dual, case, (&left, &by_dual), scale)?;
     let by_dual = partial::<G>(xi, &log_of(&moved.compose(&base.inverse())));
-    c.vectors(formulas.right_dual, case, &right, &by_dual, scale)?;
+    c.vectors(formulas.right_dual, case, (&right, &by_dual), scale)?;
 
     let s = step::<G>() / vector_size(eta);
     let base = R::retract::<G>(xi).inverse();
     let at = |s: f64| log_of(&base.compose(&R::retract(&sum(xi, &scaled(eta, s)))));
     let by_difference = central(&at(s), &at(-s), s);
-    let tolerance = difference_tolerance::<G>(scale * vector_size(eta));
-    c.within(
-        formulas.left_difference,
-        case,
-        &left,
-        &by_difference,
-        tolerance,
-    )?;
+    let tolerance = difference_tolerance::<G::Scalar>(scale * vector_size(eta));
+    let sides = (&left, &by_difference);
+    c.within(formulas.left_difference, case, sides, tolerance)?;
 
     let back = R::d_left::<G>(xi, &R::d_left_inv::<G>(xi, eta));
-    c.vectors(formulas.left_inverse, case, &back, eta, scale)?;
+    c.vectors(formulas.left_inverse, case, (&back, eta), scale)?;
     let back = R::d_right::<G>(xi, &R::d_right_inv::<G>(xi, eta));
-    c.vectors(formulas.right_inverse, case, &back, eta, scale)
+    c.vectors(formulas.right_inverse, case, (&back, eta), scale)
 }
 
 type JetOf<G> = <<G as LieGroup>::Scalar as Scalar>::Jet;
@@ -138,9 +140,7 @@ fn constant<G>(shape: &G, xi: &G::Algebra) -> <Over<G, JetOf<G>> as LieGroup>::A
 where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
 {
-    let mut out = lifted(shape).zero_algebra();
-    (0..xi.dim()).for_each(|i| out.set(i, Jet::constant(xi.get(i))));
-    out
+    filled(&lifted(shape).zero_algebra(), |i| Jet::constant(xi.get(i)))
 }
 
 fn lifted<G>(g: &G) -> Over<G, JetOf<G>>
@@ -152,18 +152,12 @@ where
 
 /// The derivative along $s$.
 fn partial<G: LieGroup>(shape: &G::Algebra, x: &impl VectorSpace<Scalar = JetOf<G>>) -> G::Algebra {
-    let mut out = shape.clone();
-    (0..x.dim()).for_each(|i| out.set(i, x.get(i).partial(0)));
-    out
+    filled(shape, |i| x.get(i).partial(0))
 }
 
 /// The step that balances truncation and rounding of central differences.
 fn step<G: LieGroup>() -> f64 {
     G::Scalar::EPSILON.cbrt()
-}
-
-fn difference_tolerance<G: LieGroup>(scale: f64) -> f64 {
-    super::ROUNDINGS * G::Scalar::EPSILON.powf(2.0 / 3.0) * scale
 }
 
 fn central<V: VectorSpace>(plus: &V, minus: &V, s: f64) -> V {
