@@ -34,20 +34,20 @@ proptest! {
         // Rounding of sums of a few terms up to 1e2.
         let hessian = hessian(model, g, xi);
         assert_close(&printed.concat(), &hessian.concat(), 1e-13);
-        let momentum = Lagrangian::legendre(model, g, xi).to_vec();
-        assert_close(&momentum, &product(&printed, &xi.to_vec()), 1e-13);
+        let momentum = Lagrangian::legendre(model, g, xi).coordinates();
+        assert_close(&momentum, &product(&printed, &xi.coordinates()), 1e-13);
         // (7): the energy is its quadratic form.
         let energy = Lagrangian::value::<f64>(model, g, xi);
-        let half: f64 = momentum.iter().zip(xi.to_vec()).map(|(p, x)| 0.5 * p * x).sum();
+        let half: f64 = momentum.iter().zip(xi.coordinates()).map(|(p, x)| 0.5 * p * x).sum();
         assert_close(&[energy], &[half], 1e-13);
     }
 
     #[test]
     fn the_legendre_transform_is_the_derivative_by_dual_numbers(sample in any_sample()) {
         let Sample { model, g, xi, .. } = &sample;
-        let closed = Lagrangian::legendre(model, g, xi).to_vec();
+        let closed = Lagrangian::legendre(model, g, xi).coordinates();
         // Rounding of sums up to 1e2.
-        assert_close(&closed, &ByValue(model).legendre(g, xi).to_vec(), 1e-13);
+        assert_close(&closed, &ByValue(model).legendre(g, xi).coordinates(), 1e-13);
     }
 
     #[test]
@@ -55,8 +55,8 @@ proptest! {
         let Sample { model, g, xi, .. } = &sample;
         let (velocity, force) = velocity_and_force::<f64>(model, g, &sample.mu());
         // Rounding times the condition of the inertia, up to a few hundred.
-        assert_close(&velocity.to_vec(), &xi.to_vec(), 1e-12);
-        assert_close(&force.to_vec(), &force_by_jets(&sample), 1e-12);
+        assert_close(&velocity.coordinates(), &xi.coordinates(), 1e-12);
+        assert_close(&force.coordinates(), &force_by_jets(&sample), 1e-12);
     }
 
     #[test]
@@ -79,7 +79,7 @@ proptest! {
             mu.set(i, value(&sum) - value(&still) - value(&basis(i)));
         }
         let (velocity, _) = velocity_and_force::<J>(model, &g, &mu);
-        for (i, x) in velocity.to_vec().into_iter().enumerate() {
+        for (i, x) in velocity.coordinates().into_iter().enumerate() {
             // As above.
             assert_close(&[x.value()], &[xi.get(i)], 1e-12);
             let slopes: Vec<f64> = (0..lie::JET_DIRECTIONS).map(|d| x.partial(d)).collect();
@@ -91,7 +91,7 @@ proptest! {
     fn the_reduced_solve_is_the_dense_one(sample in any_sample()) {
         let Sample { model, g, xi, .. } = &sample;
         let mu = sample.mu();
-        let dense = solve(&hessian(model, g, xi), &mu.to_vec());
+        let dense = solve(&hessian(model, g, xi), &mu.coordinates());
         let mut factor = model.factor();
         let mut reduced = g.zero_algebra();
         spoil(&mut reduced);
@@ -99,10 +99,10 @@ proptest! {
         model.factorise(g, &mut factor);
         model.solve(&factor, &mu, &mut reduced);
         // Rounding times the condition, in both.
-        assert_close(&reduced.to_vec(), &dense, 1e-12);
+        assert_close(&reduced.coordinates(), &dense, 1e-12);
         if let [one, two] = &g.2[..] {
             let printed = Paper::new(&sample).inertia([g.0, *one, *two].map(|r| *r.matrix()));
-            assert_close(&reduced.to_vec(), &solve(&printed, &mu.to_vec()), 1e-12);
+            assert_close(&reduced.coordinates(), &solve(&printed, &mu.coordinates()), 1e-12);
         }
     }
 

@@ -39,7 +39,7 @@ fn by_jets<S: Scalar>(
 fn numbers(mu: &Momentum<J>) -> Vec<f64> {
     let one =
         |x: J| core::iter::once(x.value()).chain((0..JET_DIRECTIONS).map(move |d| x.partial(d)));
-    mu.to_vec().into_iter().flat_map(one).collect()
+    mu.coordinates().into_iter().flat_map(one).collect()
 }
 
 /// The size of what the sums of (29)–(33) are made of, times $h$: the rounding is relative to it.
@@ -57,8 +57,8 @@ proptest! {
         // In d_f the duals cancel off-diagonal terms up to 30, however small the displacement is.
         // d_g has no such terms, and is quadratic in a small displacement: relative accuracy in both.
         let size = scale(&sample);
-        assert_close(&closed.d_f.to_vec(), &jets.d_f.to_vec(), 1e-14 * (1.0 + size) / H);
-        assert_close(&closed.d_g.to_vec(), &jets.d_g.to_vec(), 1e-15 * size * size.min(1.0) / H);
+        assert_close(&closed.d_f.coordinates(), &jets.d_f.coordinates(), 1e-14 * (1.0 + size) / H);
+        assert_close(&closed.d_g.coordinates(), &jets.d_g.coordinates(), 1e-15 * size * size.min(1.0) / H);
     }
 
     #[test]
@@ -82,8 +82,8 @@ proptest! {
             differences[0].push(f_side / (2.0 * STEP));
             differences[1].push(g_side / (2.0 * STEP));
         }
-        assert_close(&derivatives.d_f.to_vec(), &differences[0], TOLERANCE);
-        assert_close(&derivatives.d_g.to_vec(), &differences[1], TOLERANCE);
+        assert_close(&derivatives.d_f.coordinates(), &differences[0], TOLERANCE);
+        assert_close(&derivatives.d_g.coordinates(), &differences[1], TOLERANCE);
     }
 
     #[test]

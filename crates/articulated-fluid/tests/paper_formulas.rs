@@ -156,7 +156,7 @@ impl Step {
 
 /// A momentum times $h$.
 fn times(mu: &Momentum, h: f64) -> Vec<f64> {
-    mu.to_vec().into_iter().map(|p| h * p).collect()
+    mu.coordinates().into_iter().map(|p| h * p).collect()
 }
 
 proptest! {

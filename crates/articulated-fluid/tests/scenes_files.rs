@@ -28,7 +28,7 @@ fn every_scene_has_a_model_and_an_initial_state() {
         let heads = [scene.bodies[0].angular_velocity, scene.velocity];
         let tails = scene.bodies[1..].iter().map(|body| body.angular_velocity);
         let given: Vec<f64> = heads.into_iter().chain(tails).flatten().collect();
-        for (found, given) in xi.to_vec().into_iter().zip(given) {
+        for (found, given) in xi.coordinates().into_iter().zip(given) {
             assert!((found - given).abs() < 1e-12, "{}", path.display());
         }
         let kept = model.conserved(&state).expect("the model's state");

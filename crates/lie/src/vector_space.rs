@@ -91,7 +91,7 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
     }
 
     /// The coordinates, in a new vector.
-    fn to_vec(&self) -> Vec<Self::Scalar> {
+    fn coordinates(&self) -> Vec<Self::Scalar> {
         (0..self.dim()).map(|i| self.get(i)).collect()
     }
 }

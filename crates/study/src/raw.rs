@@ -13,7 +13,7 @@ pub fn pack(state: &State<Configuration>) -> Vec<f64> {
     let mut y = entries(r0);
     y.extend(x.0);
     y.extend(r.iter().flat_map(entries));
-    y.extend(state.mu.to_vec());
+    y.extend(state.mu.coordinates());
     y
 }
 

@@ -39,7 +39,7 @@ fn slices<V: VectorSpace>(c: &mut Checker, x: &V) -> Outcome {
     let mut copy = filled(x, |_| garbage);
     copy.read(&[&expected[..], &[garbage]].concat());
     vectors(c, "read(write(x)) = x", (&copy, x))?;
-    same(c, "to_vec(x)_i = x_i", (&x.to_vec(), &expected))
+    same(c, "coordinates(x)_i = x_i", (&x.coordinates(), &expected))
 }
 
 fn combinations<V: VectorSpace>(c: &mut Checker, x: &V, y: &V) -> Outcome {
