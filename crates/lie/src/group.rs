@@ -25,8 +25,8 @@ pub type DualOver<G, S> = <Over<G, S> as LieGroup>::Dual;
 ///
 /// A type is a *family* over scalars: [`WithScalar`](Self::WithScalar) names its relatives, so one formula
 /// runs on floats, dual numbers and SIMD lanes. Write the required items for a group of your own and call
-/// [`laws::check`](crate::laws::check) on a few elements: it proves them. All else has a default; where speed
-/// counts, replace the default by a closed form, and the laws prove that too.
+/// [`laws::check`](crate::laws::check) on a few elements: it tests them. All else has a default; where speed
+/// counts, replace the default by a closed form, and the laws test that too.
 ///
 /// The `*_into` methods write into an existing element of the same shape; run-time-sized groups override
 /// them so that integrators step without allocating.
@@ -144,7 +144,7 @@ pub trait LieGroup: Clone + Debug + PartialEq {
         log.max_magnitude().is_finite()
     }
 
-    /// Pulls an element that rounding has moved off the group back to it.
+    /// Pulls an element that rounding has moved off the group back to it; needed where the numbers are redundant, as a matrix's are.
     #[inline(always)]
     fn normalize(&mut self) {}
 
