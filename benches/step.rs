@@ -32,12 +32,12 @@ fn paper() -> (ArticulatedBody, State<Configuration>) {
 #[divan::bench]
 fn evaluation_x1000(bencher: Bencher) {
     let (model, state) = paper();
-    let mut workspace = ContinuousSystem::workspace::<f64>(&model);
+    let mut workspace = ContinuousSystem::workspace::<f64>(&model, &state.g);
     let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
     bencher.bench_local(|| {
         for _ in 0..BATCH {
             let (g, mu) = black_box((&state.g, &state.mu));
-            model.velocity_and_force::<f64>(g, mu, &mut workspace, &mut xi, &mut tau);
+            model.velocity_and_force::<f64>(0.0, g, mu, &mut workspace, &mut xi, &mut tau);
             black_box((&xi, &tau));
         }
     });

@@ -60,8 +60,8 @@ fn a_hundred_seconds_of_the_paper() {
 fn the_equation_was_solved(model: &ArticulatedBody, state: &State<Configuration>) {
     let mut integrator = Variational::with_inertia(model.clone());
     let f = integrator.displacement(state, H).unwrap();
-    let before = dvi::legendre_minus(model, &state.g, &f, H);
-    let after = dvi::legendre_plus(model, &state.g, &f, H);
+    let before = dvi::legendre_minus(model, state.t, &state.g, &f, H);
+    let after = dvi::legendre_plus(model, state.t, &state.g, &f, H);
     let mut next = state.clone();
     integrator.step(&mut next, H).unwrap();
     let size = state.mu.0.vec3().norm();

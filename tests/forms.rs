@@ -53,7 +53,7 @@ fn the_lagrangian_form_is_the_hamiltonian_form() {
         for _ in 1..steps {
             integrator.step_pair(&mut pair).unwrap();
         }
-        let mu = dvi::legendre_plus(integrator.lagrangian(), &pair.g, &pair.f, H);
+        let mu = dvi::legendre_plus(integrator.lagrangian(), pair.t, &pair.g, &pair.f, H);
         State {
             t: f64::from(steps) * H,
             g: pair.g.compose(&pair.f),

@@ -32,8 +32,9 @@ impl ArticulatedBody {
             }
         }
         let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
-        let mut workspace = ContinuousSystem::workspace::<f64>(self);
-        self.velocity_and_force::<f64>(&state.g, &state.mu, &mut workspace, &mut xi, &mut tau);
+        let mut workspace = ContinuousSystem::workspace::<f64>(self, &state.g);
+        let State { t, g, mu } = state;
+        self.velocity_and_force::<f64>(*t, g, mu, &mut workspace, &mut xi, &mut tau);
         Ok(xi)
     }
 
@@ -52,7 +53,7 @@ impl ArticulatedBody {
         let orbital = x.vec3().cross(px.vec3());
         let conserved = Conserved {
             energy: 0.5 * Configuration::pair(&state.mu, &xi),
-            linear: self.legendre(&state.g, &xi).1.vec3(),
+            linear: self.legendre(state.t, &state.g, &xi).1.vec3(),
             angular: spins.fold(orbital, |sum, spin| sum + spin),
         };
         let Conserved {

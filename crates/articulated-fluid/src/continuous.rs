@@ -1,5 +1,7 @@
 //! The continuous model: the Lagrangian (6), the Legendre transform (10), the forces (11)–(13), Hamilton's equations (18)–(20).
 
+use core::ops::Range;
+
 use dvi::{ContinuousSystem, Lagrangian};
 use lie::{AlgebraOver, Cotangent, DualOver, LieGroup, Mat3, SO3, Scalar, Vec3};
 
@@ -46,6 +48,7 @@ impl Lagrangian for ArticulatedBody {
     /// (10) with the rows of (4): $p_x = \sum_i R_i M_i V_i$, $p_0 = J_0 \Omega_0 + \sum_i \hat d_{0i} R_0^T R_i M_i V_i$, $p_i = J_i \Omega_i - \hat d_{i0} M_i V_i$.
     fn legendre(
         &self,
+        _t: f64,
         g: &Configuration,
         xi: &<Configuration as LieGroup>::Algebra,
     ) -> <Configuration as LieGroup>::Dual {
@@ -64,6 +67,15 @@ impl Lagrangian for ArticulatedBody {
         let p = p.collect();
         (p0.into(), px.into(), p)
     }
+
+    /// The head's position: $x$ enters nowhere.
+    fn cyclic(&self) -> Range<usize> {
+        3..6
+    }
+
+    fn fits(&self, g: &Configuration) -> bool {
+        g.2.len() == self.tails.len()
+    }
 }
 
 impl ContinuousSystem for ArticulatedBody {
@@ -71,13 +83,14 @@ impl ContinuousSystem for ArticulatedBody {
     /// The attitudes of the tails in the head's frame.
     type Workspace<S: Scalar> = Vec<Mat3<S>>;
 
-    fn workspace<S: Scalar>(&self) -> Vec<Mat3<S>> {
+    fn workspace<S: Scalar>(&self, _: &Configuration<S>) -> Vec<Mat3<S>> {
         vec![Mat3::zero(); self.tails.len()]
     }
 
     #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,
+        _t: S,
         g: &Configuration<S>,
         mu: &DualOver<Configuration, S>,
         c: &mut Vec<Mat3<S>>,
@@ -106,5 +119,9 @@ impl ContinuousSystem for ArticulatedBody {
         tau.0 = tau0.into();
         // (12).
         tau.1 = Vec3::zero().into();
+    }
+
+    fn fits(&self, g: &Configuration) -> bool {
+        g.2.len() == self.tails.len()
     }
 }

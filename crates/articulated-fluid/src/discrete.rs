@@ -83,6 +83,7 @@ impl DiscreteLagrangian for ArticulatedBody {
     #[inline(always)]
     fn derivatives<S: Scalar>(
         &self,
+        _t: S,
         g: &Configuration<S>,
         f: &Configuration<S>,
         h: S,

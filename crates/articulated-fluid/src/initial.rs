@@ -47,7 +47,7 @@ impl Scene {
             .ok_or(ModelError::NoBody)?;
         let g = (head, Rn(self.position), attitudes.collect());
         let xi = (rate, Tangent(self.velocity), rates.collect());
-        let mu = Lagrangian::legendre(&model, &g, &xi);
+        let mu = Lagrangian::legendre(&model, 0.0, &g, &xi);
         if !g.is_finite() {
             return Err(ModelError::NotFinite {
                 quantity: "configuration",

@@ -34,7 +34,7 @@ proptest! {
         // Rounding of sums of a few terms up to 1e2.
         let hessian = hessian(model, g, xi);
         assert_close(&printed.concat(), &hessian.concat(), 1e-13);
-        let momentum = Lagrangian::legendre(model, g, xi).coordinates();
+        let momentum = Lagrangian::legendre(model, 0.0, g, xi).coordinates();
         assert_close(&momentum, &product(&printed, &xi.coordinates()), 1e-13);
         // (7): the energy is its quadratic form.
         let energy = Lagrangian::value::<f64>(model, g, xi);
@@ -45,9 +45,9 @@ proptest! {
     #[test]
     fn the_legendre_transform_is_the_derivative_by_dual_numbers(sample in any_sample()) {
         let Sample { model, g, xi, .. } = &sample;
-        let closed = Lagrangian::legendre(model, g, xi).coordinates();
+        let closed = Lagrangian::legendre(model, 0.0, g, xi).coordinates();
         // Rounding of sums up to 1e2.
-        assert_close(&closed, &ByValue(model).legendre(g, xi).coordinates(), 1e-13);
+        assert_close(&closed, &ByValue(model).legendre(0.0, g, xi).coordinates(), 1e-13);
     }
 
     #[test]
@@ -116,7 +116,7 @@ proptest! {
         let mut c = f.zero_algebra();
         model.eliminate(&factor, &mu, H, &mut f, &mut c);
         assert_eq!(c.1.vec3(), f.1.vec3(), "element and coordinates agree");
-        let after = dvi::legendre_plus(model, g, &f, H);
+        let after = dvi::legendre_plus(model, 0.0, g, &f, H);
         // Rounding of masses times lengths up to 1e2, over H.
         assert_close(&after.1.0, &mu.1.0, 1e-12);
     }

@@ -20,7 +20,7 @@ fn closed<S: Scalar>(
     let mut out = Derivatives::new(g);
     spoil(&mut out.d_f);
     spoil(&mut out.d_g);
-    model.derivatives(g, f, h, &mut out);
+    model.derivatives(S::zero(), g, f, h, &mut out);
     out
 }
 
@@ -31,7 +31,7 @@ fn by_jets<S: Scalar>(
     h: S,
 ) -> Derivatives<Configuration, S> {
     let mut out = Derivatives::new(g);
-    out.by_jets(model, g, f, h);
+    out.by_jets(model, S::zero(), g, f, h);
     out
 }
 

@@ -170,10 +170,10 @@ proptest! {
         let value = DiscreteLagrangian::value(model, g, f, H);
         assert_close(&[H * value], &[step.action()], tolerance);
         let mut out = Derivatives::new(g);
-        model.derivatives(g, f, H, &mut out);
+        model.derivatives(0.0, g, f, H, &mut out);
         assert_close(&times(&out.d_f, H), &stacked(step.d_f()), tolerance);
         assert_close(&times(&out.d_g, H), &stacked(step.d_g()), tolerance);
-        let before = dvi::legendre_minus(model, g, f, H);
+        let before = dvi::legendre_minus(model, 0.0, g, f, H);
         assert_close(&times(&before, H), &stacked(step.momentum_before()), tolerance);
     }
 

@@ -40,11 +40,12 @@ impl<G: RealGroup, S: Scalar> Balance<G, S> {
     pub(crate) fn evaluate<L: DiscreteLagrangian<Group = G>>(
         &mut self,
         lagrangian: &L,
+        t: S,
         g: &Over<G, S>,
         mu: &DualOver<G, S>,
         h: S,
     ) {
-        lagrangian.derivatives(g, &self.f, h, &mut self.derivatives);
+        lagrangian.derivatives(t, g, &self.f, h, &mut self.derivatives);
         self.momentum.set_sum(mu, S::one(), &self.derivatives.d_g);
         self.f.coadjoint_into(&self.momentum, &mut self.transported);
         self.residual

@@ -13,18 +13,24 @@ pub trait ContinuousSystem {
     /// Storage for an evaluation over the scalar `S`; `()` where none is needed.
     type Workspace<S: Scalar>;
 
-    /// Storage for [`velocity_and_force`](Self::velocity_and_force).
-    fn workspace<S: Scalar>(&self) -> Self::Workspace<S>;
+    /// Storage for [`velocity_and_force`](Self::velocity_and_force) at configurations of the shape of `g`.
+    fn workspace<S: Scalar>(&self, g: &Over<Self::Group, S>) -> Self::Workspace<S>;
 
-    /// The velocity $\xi$ with $\mu = \mathbf D_\xi L(g, \xi)$, and the force $\tau = \mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L(g, \xi)$.
+    /// At time `t`: the velocity $\xi$ with $\mu = \mathbf D_\xi L(g, \xi)$, and the force $\tau = \mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L(g, \xi)$.
     ///
-    /// Writes every coordinate of `xi` and `tau`.
+    /// Writes every coordinate of `xi` and `tau`; where there is no velocity, they are not finite.
     fn velocity_and_force<S: Scalar>(
         &self,
+        t: S,
         g: &Over<Self::Group, S>,
         mu: &DualOver<Self::Group, S>,
         workspace: &mut Self::Workspace<S>,
         xi: &mut AlgebraOver<Self::Group, S>,
         tau: &mut DualOver<Self::Group, S>,
     );
+
+    /// Whether `g` is a configuration of this system; for systems whose size is known at run time.
+    fn fits(&self, _g: &Self::Group) -> bool {
+        true
+    }
 }

@@ -3,7 +3,7 @@
 use lie::{LieGroup, Retraction, VectorSpace};
 
 use crate::solver::{Algebra, Dual, StepSolver};
-use crate::{DiscreteLagrangian, Newton};
+use crate::{DiscreteLagrangian, Newton, State};
 
 /// A model that solves its inertia, $\mathbb I(g) \xi = \mu$, faster than a dense matrix does.
 pub trait Inertia: DiscreteLagrangian {
@@ -68,8 +68,7 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
     fn renew<R: Retraction>(
         &mut self,
         lagrangian: &L,
-        g: &L::Group,
-        mu: &Dual<L>,
+        state: &State<L::Group>,
         h: f64,
         c: &Algebra<L>,
     ) {
@@ -78,14 +77,14 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
         }
         let exact = self
             .exact
-            .get_or_insert_with(|| StepSolver::<L>::allocate(lagrangian, g));
-        StepSolver::<L>::renew::<R>(exact, lagrangian, g, mu, h, c);
+            .get_or_insert_with(|| StepSolver::<L>::allocate(lagrangian, &state.g));
+        StepSolver::<L>::renew::<R>(exact, lagrangian, state, h, c);
         self.takes_exact = true;
     }
 
     #[inline(always)]
-    fn begin(&mut self, lagrangian: &L, g: &L::Group, _: &Dual<L>, h: f64) {
-        lagrangian.factorise(g, &mut self.factor);
+    fn begin(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) {
+        lagrangian.factorise(&state.g, &mut self.factor);
         (self.h, self.takes_exact) = (h, false);
     }
 

@@ -38,22 +38,33 @@ pub struct StepReport {
     pub residual: f64,
 }
 
-impl<I: Integrator + ?Sized> Integrator for Box<I> {
-    type Group = I::Group;
+macro_rules! forward {
+    ($pointer:ty) => {
+        impl<I: Integrator + ?Sized> Integrator for $pointer {
+            type Group = I::Group;
 
-    fn order(&self) -> u32 {
-        (**self).order()
-    }
+            fn order(&self) -> u32 {
+                (**self).order()
+            }
 
-    fn is_symmetric(&self) -> bool {
-        (**self).is_symmetric()
-    }
+            fn is_symmetric(&self) -> bool {
+                (**self).is_symmetric()
+            }
 
-    fn is_symplectic(&self) -> bool {
-        (**self).is_symplectic()
-    }
+            fn is_symplectic(&self) -> bool {
+                (**self).is_symplectic()
+            }
 
-    fn step(&mut self, state: &mut State<I::Group>, h: f64) -> Result<StepReport, StepError> {
-        (**self).step(state, h)
-    }
+            fn step(
+                &mut self,
+                state: &mut State<I::Group>,
+                h: f64,
+            ) -> Result<StepReport, StepError> {
+                (**self).step(state, h)
+            }
+        }
+    };
 }
+
+forward!(Box<I>);
+forward!(&mut I);

@@ -1,11 +1,36 @@
 //! Dual copies of group elements, moved along the basis of the algebra in chunks.
 
-use lie::{AlgebraOver, Jet, LieGroup, Over, RealGroup, Scalar};
+use lie::{AlgebraOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 /// Calls `body` with the first direction of every chunk.
 #[inline(always)]
 pub(crate) fn for_each_chunk(dim: usize, body: impl FnMut(usize)) {
     (0..dim).step_by(lie::JET_DIRECTIONS).for_each(body);
+}
+
+/// Copies the derivatives of a chunk into the coordinates from `first` on.
+#[inline(always)]
+pub(crate) fn read_partials<V: VectorSpace>(
+    out: &mut V,
+    first: usize,
+    value: impl Jet<Value = V::Scalar>,
+) {
+    let end = out.dim().min(first + lie::JET_DIRECTIONS);
+    for i in first..end {
+        out.set(i, value.partial(i - first));
+    }
+}
+
+/// $x \leftarrow x + y$ for a `y` that is not differentiated.
+#[inline(always)]
+pub(crate) fn add_constant<V, W>(x: &mut V, y: &W)
+where
+    V: VectorSpace<Scalar: Jet<Value = W::Scalar>>,
+    W: VectorSpace,
+{
+    for i in 0..x.dim() {
+        x.set(i, x.get(i) + V::Scalar::constant(y.get(i)));
+    }
 }
 
 /// An element of `G` over the duals of `S`.
@@ -33,9 +58,17 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
         }
     }
 
+    pub(crate) fn zero_algebra(&self) -> AlgebraOver<G, S::Jet> {
+        self.g.zero_algebra()
+    }
+
     pub(crate) fn set(&mut self, g: &Over<G, S>, f: &Over<G, S>) {
-        G::convert_into::<S, S::Jet>(g, Jet::constant, &mut self.g);
+        self.set_g(g);
         G::convert_into::<S, S::Jet>(f, Jet::constant, &mut self.f);
+    }
+
+    pub(crate) fn set_g(&mut self, g: &Over<G, S>) {
+        G::convert_into::<S, S::Jet>(g, Jet::constant, &mut self.g);
     }
 
     /// $(g, f \exp\zeta)$ with the directions from `first` on; to first order, any retraction is the exponential.
@@ -50,6 +83,11 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
         self.step_along(first);
         self.g.compose_into(&self.small, &mut self.moved);
         (&self.moved, &self.f)
+    }
+
+    /// $g \exp\eta$ alone.
+    pub(crate) fn moved_g(&mut self, first: usize) -> &Moved<G, S> {
+        self.moving_g(first).0
     }
 
     fn step_along(&mut self, first: usize) {

@@ -1,13 +1,43 @@
-//! Continuous and discrete Lagrangians: what a user writes.
+//! The continuous Lagrangian: what a user writes when there is no discrete one yet.
 
-use core::fmt::Debug;
 use core::ops::Range;
 
-use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
+use lie::{AlgebraOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
-use crate::jets::{Lifted, for_each_chunk};
+use crate::jets::{add_constant, for_each_chunk, read_partials};
+use crate::{Discretised, HamiltonianSystem, Quadrature, State};
 
 /// A Lagrangian $L(g, \xi)$ on a left-trivialised tangent bundle, $\dot g = g \xi$.
+///
+/// Only [`value`](Self::value) is required; write it generic over the scalar. From it follow discrete Lagrangians
+/// ([`discretise`](Self::discretise)) and Hamilton's equations ([`hamiltonian`](Self::hamiltonian)).
+///
+/// ```
+/// use dvi::{Integrator, Lagrangian, Midpoint, Variational};
+/// use lie::{SO3, Scalar, Tangent, Vec3};
+///
+/// /// A heavy top: moments of inertia 1, 1 and 1/2 kg m², weight times lever 1 N m.
+/// struct HeavyTop;
+///
+/// impl Lagrangian for HeavyTop {
+///     type Group = SO3;
+///     fn value<S: Scalar>(&self, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
+///         let [a, b, c] = omega.0;
+///         let half = S::from_f64(0.5);
+///         (a * a + b * b + c * c * half) * half - r.rotate(Vec3([0.0, 0.0, 1.0]).lift())[2]
+///     }
+/// }
+///
+/// let start = HeavyTop.state(0.0, SO3::exp(&Tangent([0.3, 0.0, 0.0])), &Tangent([0.0, 0.0, 10.0]));
+/// let (mut state, mut integrator) = (start.clone(), Variational::new(HeavyTop.discretise::<Midpoint>()));
+/// for _ in 0..100 {
+///     integrator.step(&mut state, 0.01)?;
+/// }
+/// // The spin about the body's axis and about the vertical are kept.
+/// assert!((state.mu[2] - start.mu[2]).abs() < 1e-12);
+/// # use lie::LieGroup;
+/// # Ok::<(), dvi::StepError>(())
+/// ```
 pub trait Lagrangian {
     /// The configuration group.
     type Group: RealGroup;
@@ -15,80 +45,54 @@ pub trait Lagrangian {
     /// $L(g, \xi)$, in joules.
     fn value<S: Scalar>(&self, g: &Over<Self::Group, S>, xi: &AlgebraOver<Self::Group, S>) -> S;
 
-    /// The Legendre transform $\mu = \mathbf D_\xi L(g, \xi)$, (10); by dual numbers unless given.
+    /// $L(t, g, \xi)$, the only value that the framework asks for.
+    ///
+    /// A Lagrangian that depends on time gives this one, and as [`value`](Self::value) the one at $t = 0$.
+    #[inline(always)]
+    fn value_at<S: Scalar>(
+        &self,
+        _t: S,
+        g: &Over<Self::Group, S>,
+        xi: &AlgebraOver<Self::Group, S>,
+    ) -> S {
+        self.value(g, xi)
+    }
+
+    /// The Legendre transform $\mu = \mathbf D_\xi L(t, g, \xi)$, (10); by dual numbers unless given.
     fn legendre(
         &self,
+        t: f64,
         g: &Self::Group,
         xi: &<Self::Group as LieGroup>::Algebra,
     ) -> <Self::Group as LieGroup>::Dual {
         type J = <f64 as Scalar>::Jet;
-        let lifted = g.lift::<J>();
+        let (t, lifted) = (J::constant(t), g.lift::<J>());
         let (mut moved, mut mu) = (lifted.zero_algebra(), g.zero_dual());
         for_each_chunk(xi.dim(), |first| {
             lie::seed(&mut moved, first);
-            for i in 0..xi.dim() {
-                moved.set(i, moved.get(i) + J::constant(xi.get(i)));
-            }
-            let value = self.value::<J>(&lifted, &moved);
-            read_partials(&mut mu, first, value);
+            add_constant(&mut moved, xi);
+            read_partials(&mut mu, first, self.value_at::<J>(t, &lifted, &moved));
         });
         mu
     }
-}
 
-/// A discrete Lagrangian $L_d(g_k, f_k)$ with $f_k = g_k^{-1} g_{k+1}$: the action of one step of size $h$.
-///
-/// Only [`value`](Self::value) is required; write it generic over the scalar and the framework differentiates
-/// it by dual numbers. Give [`derivatives`](Self::derivatives) in closed form where speed counts.
-///
-/// ```
-/// use dvi::{DiscreteLagrangian, Variational, Integrator, State};
-/// use lie::{Cotangent, Mat3, SO3, Scalar};
-///
-/// /// A free rigid body with the moments of inertia 1, 2 and 3 kg m²: `tr[(I - F) J_d] / h`, (23).
-/// struct RigidBody;
-///
-/// impl DiscreteLagrangian for RigidBody {
-///     type Group = SO3;
-///     fn value<S: Scalar>(&self, _: &SO3<S>, f: &SO3<S>, h: S) -> S {
-///         let jd = Mat3::diagonal([2.0, 1.0, 0.0]).lift::<S>();
-///         -(f.minus_identity() * jd).trace() / h
-///     }
-/// }
-///
-/// let mut state = State { t: 0.0, g: SO3::identity(), mu: Cotangent([0.1, 2.0, 0.1]) };
-/// let spatial = |s: &State<SO3>| s.g.rotate(s.mu.vec3());
-/// let start = spatial(&state);
-/// let mut integrator = Variational::new(RigidBody);
-/// for _ in 0..1000 {
-///     integrator.step(&mut state, 0.01)?;
-/// }
-/// assert!((spatial(&state) - start).norm() < 1e-13);
-/// # Ok::<(), dvi::StepError>(())
-/// ```
-pub trait DiscreteLagrangian {
-    /// The configuration group.
-    type Group: RealGroup;
-
-    /// $L_d(g, f)$ for a step of `h` seconds, in joule seconds.
-    fn value<S: Scalar>(&self, g: &Over<Self::Group, S>, f: &Over<Self::Group, S>, h: S) -> S;
-
-    /// Both left-trivialised derivatives, into `out`; by dual numbers unless given.
-    ///
-    /// They share most of their terms, hence one method. A closed form writes every coordinate of both.
-    fn derivatives<S: Scalar>(
-        &self,
-        g: &Over<Self::Group, S>,
-        f: &Over<Self::Group, S>,
-        h: S,
-        out: &mut Derivatives<Self::Group, S>,
-    ) {
-        out.by_jets(self, g, f, h);
+    /// The energy $\langle \mathbf D_\xi L, \xi \rangle - L$, in joules.
+    fn energy(&self, t: f64, g: &Self::Group, xi: &<Self::Group as LieGroup>::Algebra) -> f64 {
+        Self::Group::pair(&self.legendre(t, g, xi), xi) - self.value_at(t, g, xi)
     }
 
-    /// The coordinates of a factor $\mathbb{R}^m$ of a direct product that `g` does not enter $L_d$ by.
-    ///
-    /// Their equation is solved to rounding in every step, so their momentum map holds whatever the tolerance.
+    /// The state at the configuration `g` with the velocity `xi`.
+    fn state(
+        &self,
+        t: f64,
+        g: Self::Group,
+        xi: &<Self::Group as LieGroup>::Algebra,
+    ) -> State<Self::Group> {
+        let mu = self.legendre(t, &g, xi);
+        State { t, g, mu }
+    }
+
+    /// The coordinates of a factor $\mathbb{R}^m$ of a direct product that `g` does not enter $L$ by; see [`DiscreteLagrangian::cyclic`](crate::DiscreteLagrangian::cyclic).
     fn cyclic(&self) -> Range<usize> {
         0..0
     }
@@ -98,70 +102,46 @@ pub trait DiscreteLagrangian {
         true
     }
 
-    /// The order of the method.
-    fn order(&self) -> u32 {
-        1
+    /// The discrete Lagrangian by a quadrature rule, through the Cayley map: `top.discretise::<Midpoint>()`.
+    fn discretise<Q: Quadrature>(self) -> Discretised<Self, Q>
+    where
+        Self: Sized,
+    {
+        Discretised::new(self)
     }
 
-    /// Whether $L_d(g, f)$ for $h$ equals $-L_d(g f, f^{-1})$ for $-h$.
-    fn is_symmetric(&self) -> bool {
-        false
-    }
-}
-
-/// The derivatives of a discrete Lagrangian, and the storage that finding them by dual numbers needs.
-pub struct Derivatives<G: RealGroup, S: Scalar> {
-    /// $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$: the derivative along $f \exp(\zeta)$ at $\zeta = 0$.
-    pub d_f: DualOver<G, S>,
-    /// $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$: the derivative along $g \exp(\eta)$ at $\eta = 0$.
-    pub d_g: DualOver<G, S>,
-    lifted: Option<Lifted<G, S>>,
-}
-
-impl<G: RealGroup, S: Scalar> Debug for Derivatives<G, S> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Derivatives")
-            .field("d_f", &self.d_f)
-            .field("d_g", &self.d_g)
-            .finish()
+    /// Hamilton's equations of this Lagrangian.
+    fn hamiltonian(self) -> HamiltonianSystem<Self>
+    where
+        Self: Sized,
+    {
+        HamiltonianSystem(self)
     }
 }
 
-impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
-    /// Zero derivatives, of the shape of `g`.
-    pub fn new(g: &Over<G, S>) -> Self {
-        Self {
-            d_f: g.zero_dual(),
-            d_g: g.zero_dual(),
-            lifted: None,
-        }
-    }
+impl<L: Lagrangian> Lagrangian for &L {
+    type Group = L::Group;
 
-    /// Fills both from the value alone, by dual numbers seeded at the identity of $f \exp\zeta$ and $g \exp\eta$.
-    pub fn by_jets<L: DiscreteLagrangian<Group = G> + ?Sized>(
-        &mut self,
-        lagrangian: &L,
-        g: &Over<G, S>,
-        f: &Over<G, S>,
-        h: S,
-    ) {
-        let Self { d_f, d_g, lifted } = self;
-        let lifted = lifted.get_or_insert_with(|| Lifted::new(g));
-        let h = S::Jet::constant(h);
-        lifted.set(g, f);
-        for_each_chunk(d_f.dim(), |first| {
-            let (g, f) = lifted.moving_f(first);
-            read_partials(d_f, first, lagrangian.value(g, f, h));
-            let (g, f) = lifted.moving_g(first);
-            read_partials(d_g, first, lagrangian.value(g, f, h));
-        });
+    #[inline(always)]
+    fn value<S: Scalar>(&self, g: &Over<L::Group, S>, xi: &AlgebraOver<L::Group, S>) -> S {
+        L::value(self, g, xi)
     }
-}
-
-/// Copies the derivatives of a chunk into the coordinates from `first` on.
-fn read_partials<V: VectorSpace>(out: &mut V, first: usize, value: impl Jet<Value = V::Scalar>) {
-    let end = out.dim().min(first + lie::JET_DIRECTIONS);
-    for i in first..end {
-        out.set(i, value.partial(i - first));
+    #[inline(always)]
+    fn value_at<S: Scalar>(&self, t: S, g: &Over<L::Group, S>, xi: &AlgebraOver<L::Group, S>) -> S {
+        L::value_at(self, t, g, xi)
+    }
+    fn legendre(
+        &self,
+        t: f64,
+        g: &L::Group,
+        xi: &<L::Group as LieGroup>::Algebra,
+    ) -> <L::Group as LieGroup>::Dual {
+        L::legendre(self, t, g, xi)
+    }
+    fn cyclic(&self) -> Range<usize> {
+        L::cyclic(self)
+    }
+    fn fits(&self, g: &L::Group) -> bool {
+        L::fits(self, g)
     }
 }

@@ -4,11 +4,11 @@ use core::ops::Range;
 
 use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
 
-use crate::DiscreteLagrangian;
 use crate::balance::Balance;
-use crate::jets::for_each_chunk;
+use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
 use crate::solver::{Algebra, Dual, StepSolver};
+use crate::{DiscreteLagrangian, State};
 
 type J = <f64 as Scalar>::Jet;
 
@@ -44,7 +44,7 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
         }
     }
 
-    fn begin(&mut self, _: &L, _: &L::Group, _: &Dual<L>, h: f64) {
+    fn begin(&mut self, _: &L, _: &State<L::Group>, h: f64) {
         self.known &= h == self.h;
         self.h = h;
     }
@@ -60,21 +60,19 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
     fn renew<R: Retraction>(
         &mut self,
         lagrangian: &L,
-        g: &L::Group,
-        mu: &Dual<L>,
+        state: &State<L::Group>,
         h: f64,
         c: &Algebra<L>,
     ) {
+        let State { t, g, mu } = state;
+        let (t, h) = (J::constant(*t), J::constant(h));
         <L::Group as LieGroup>::convert_into::<f64, J>(g, J::constant, &mut self.g);
         (0..mu.dim()).for_each(|i| self.mu.set(i, J::constant(mu.get(i))));
         for_each_chunk(mu.dim(), |first| {
             lie::seed(&mut self.c, first);
-            for i in 0..c.dim() {
-                self.c.set(i, self.c.get(i) + J::constant(c.get(i)));
-            }
+            add_constant(&mut self.c, c);
             self.balance.retract::<R>(&self.c);
-            self.balance
-                .evaluate(lagrangian, &self.g, &self.mu, J::constant(h));
+            self.balance.evaluate(lagrangian, t, &self.g, &self.mu, h);
             let last = mu.dim().min(first + lie::JET_DIRECTIONS);
             for column in first..last {
                 for row in 0..mu.dim() {

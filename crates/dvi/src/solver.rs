@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use lie::{LieGroup, Retraction};
 
-use crate::DiscreteLagrangian;
+use crate::{DiscreteLagrangian, State};
 
 /// The matrix of a Newton or quasi-Newton iteration on the momentum balance, in the coordinates $c$ of $f = \tau(c)$.
 ///
@@ -16,8 +16,8 @@ pub trait StepSolver<L: DiscreteLagrangian> {
     /// Storage for groups of the shape of `g`.
     fn allocate(lagrangian: &L, g: &L::Group) -> Self;
 
-    /// Prepares the step from $(g, \mu)$ of size `h`.
-    fn begin(&mut self, lagrangian: &L, g: &L::Group, mu: &Dual<L>, h: f64);
+    /// Prepares the step of size `h` from `state`.
+    fn begin(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64);
 
     /// Solves the equations of the cyclic coordinates of `f` and `c` for given others, where the model does it exactly.
     fn eliminate(
@@ -42,8 +42,7 @@ pub trait StepSolver<L: DiscreteLagrangian> {
     fn renew<R: Retraction>(
         &mut self,
         _lagrangian: &L,
-        _g: &L::Group,
-        _mu: &Dual<L>,
+        _state: &State<L::Group>,
         _h: f64,
         _c: &Algebra<L>,
     ) {

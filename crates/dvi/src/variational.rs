@@ -6,10 +6,11 @@ use lie::{Cayley, LieGroup, Retraction, VectorSpace};
 
 use crate::balance::Balance;
 use crate::solver::{Algebra, StepSolver};
+use crate::variation::Linearised;
 use crate::warm_start::WarmStart;
 use crate::{
-    DiscreteLagrangian, FrozenInertia, Hint, Inertia, Integrator, Newton, Pair, State, StepError,
-    StepReport, legendre_plus,
+    DiscreteLagrangian, FirstVariation, FrozenInertia, Hint, Inertia, Integrator, Newton, Pair,
+    State, StepError, StepReport, Variation, legendre_plus,
 };
 
 /// The default [tolerance](Variational::with_tolerance).
@@ -44,6 +45,7 @@ where
     tolerance: f64,
     steps: u64,
     work: Option<Work<L, M>>,
+    linearised: Option<Linearised<L::Group>>,
     retraction: PhantomData<R>,
 }
 
@@ -103,6 +105,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
             tolerance: TOLERANCE,
             steps: 0,
             work: None,
+            linearised: None,
             retraction: PhantomData,
         }
     }
@@ -156,7 +159,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     pub fn step_pair(&mut self, pair: &mut Pair<L::Group>) -> Result<StepReport, StepError> {
         let Pair { t, h, g, f } = pair;
         self.check(*t, *h, g)?;
-        let mu = legendre_plus(&self.lagrangian, g, f, *h);
+        let mu = legendre_plus(&self.lagrangian, *t, g, f, *h);
         let mut next = State {
             t: *t + *h,
             g: g.compose(f),
@@ -170,6 +173,24 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         f.clone_from(&self.work(&next.g).balance.f);
         (*t, *g) = (next.t, next.g);
         Ok(report)
+    }
+
+    /// Takes the step that was solved.
+    fn advance(&mut self, state: &mut State<L::Group>, h: f64) -> Result<(), StepError> {
+        let (normalizes, step, t) = (self.normalizes(), self.steps, state.t);
+        let work = self.work(&state.g);
+        state.g.compose_into(&work.balance.f, &mut work.next);
+        if normalizes {
+            work.next.normalize();
+        }
+        if !work.next.is_finite() {
+            return Err(StepError::NotFinite { step, t, h });
+        }
+        core::mem::swap(&mut state.g, &mut work.next);
+        core::mem::swap(&mut state.mu, &mut work.balance.transported);
+        state.t += h;
+        self.accept(h);
+        Ok(())
     }
 
     fn normalizes(&self) -> bool {
@@ -235,7 +256,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         if !size.is_finite() {
             return Err(StepError::NotFinite { step, t, h });
         }
-        work.solver.begin(lagrangian, &state.g, &state.mu, h);
+        work.solver.begin(lagrangian, state, h);
         let warm = work.warm.guess(h, &mut work.coordinates);
         work.c.read(&work.coordinates);
         let mut solved = work.iterate::<R>(lagrangian, state, h, size, tolerance);
@@ -343,8 +364,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             }
             best = best.min(residual);
             if self.solver.is_stale() || residual > M::SLOW * last {
-                self.solver
-                    .renew::<R>(lagrangian, &state.g, &state.mu, h, &self.c);
+                self.solver.renew::<R>(lagrangian, state, h, &self.c);
             }
             last = residual;
             self.solver
@@ -368,7 +388,8 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         self.balance.retract::<R>(&self.c);
         let (f, c) = (&mut self.balance.f, &mut self.c);
         self.solver.eliminate(lagrangian, &state.mu, h, f, c);
-        self.balance.evaluate(lagrangian, &state.g, &state.mu, h);
+        let State { t, g, mu } = state;
+        self.balance.evaluate(lagrangian, *t, g, mu, h);
         norm(&self.balance.residual)
     }
 
@@ -415,25 +436,48 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
     }
 
     fn is_symplectic(&self) -> bool {
-        true
+        self.lagrangian.is_symplectic()
     }
 
     /// The Hamiltonian form $(g_k, \mu_k) \mapsto (g_{k+1}, \mu_{k+1})$, (39)–(46).
     fn step(&mut self, state: &mut State<L::Group>, h: f64) -> Result<StepReport, StepError> {
         let report = self.solve(state, h)?;
-        let (normalizes, step, t) = (self.normalizes(), self.steps, state.t);
-        let work = self.work(&state.g);
-        state.g.compose_into(&work.balance.f, &mut work.next);
-        if normalizes {
-            work.next.normalize();
-        }
-        if !work.next.is_finite() {
+        self.advance(state, h)?;
+        Ok(report)
+    }
+}
+
+impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> FirstVariation
+    for Variational<L, M, R>
+{
+    fn step_varied(
+        &mut self,
+        state: &mut State<L::Group>,
+        variations: &mut [Variation<L::Group>],
+        h: f64,
+    ) -> Result<StepReport, StepError> {
+        let report = self.solve(state, h)?;
+        let mut carried = variations.to_vec();
+        let (step, t) = (self.steps, state.t);
+        let Self {
+            lagrangian,
+            work,
+            linearised,
+            ..
+        } = self;
+        let work = work.get_or_insert_with(|| Work::new(lagrangian, &state.g));
+        let fits = |known: &Linearised<L::Group>| known.fits(&state.g);
+        let mut linearised = linearised
+            .take()
+            .filter(fits)
+            .unwrap_or_else(|| Linearised::new(lagrangian, &state.g));
+        linearised.carry::<L, R>(lagrangian, (state, h), &work.c, &mut carried);
+        self.linearised = Some(linearised);
+        if !carried.iter().all(Variation::is_finite) {
             return Err(StepError::NotFinite { step, t, h });
         }
-        core::mem::swap(&mut state.g, &mut work.next);
-        core::mem::swap(&mut state.mu, &mut work.balance.transported);
-        state.t += h;
-        self.accept(h);
+        self.advance(state, h)?;
+        variations.clone_from_slice(&carried);
         Ok(report)
     }
 }

@@ -77,7 +77,7 @@ fn tops(n: usize) -> State<Power<SO3>> {
 fn off_centre() -> State<(SO3, R3)> {
     let g = (SO3::exp(&Tangent([0.4, -1.0, 0.3])), Rn([1.0, 2.0, 3.0]));
     let xi = (Tangent([0.3, -0.5, 1.0]), Tangent([0.2, 0.1, -0.4]));
-    let mu = Lagrangian::legendre(&OffCentre, &g, &xi);
+    let mu = Lagrangian::legendre(&OffCentre, 0.0, &g, &xi);
     State { t: 0.0, g, mu }
 }
 
@@ -136,8 +136,8 @@ fn the_legendre_transforms_invert_the_displacement() {
     let f = integrator.displacement(&state, 0.02).unwrap();
     let mut next = state.clone();
     integrator.step(&mut next, 0.02).unwrap();
-    let minus = legendre_minus(&Tops, &state.g, &f, 0.02);
-    let plus = legendre_plus(&Tops, &state.g, &f, 0.02);
+    let minus = legendre_minus(&Tops, 0.0, &state.g, &f, 0.02);
+    let plus = legendre_plus(&Tops, 0.0, &state.g, &f, 0.02);
     for i in 0..2 {
         assert!((minus[i].vec3() - state.mu[i].vec3()).norm() < 1e-12);
         assert!((plus[i].vec3() - next.mu[i].vec3()).norm() < 1e-12);

@@ -30,7 +30,7 @@ pub struct Sample {
 impl Sample {
     /// The momentum of the velocity.
     pub fn mu(&self) -> Momentum {
-        Lagrangian::legendre(&self.model, &self.g, &self.xi)
+        Lagrangian::legendre(&self.model, 0.0, &self.g, &self.xi)
     }
 }
 
@@ -218,8 +218,8 @@ pub fn velocity_and_force<S: Scalar>(
     let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
     spoil(&mut xi);
     spoil(&mut tau);
-    let mut workspace = ContinuousSystem::workspace::<S>(model);
-    model.velocity_and_force::<S>(g, mu, &mut workspace, &mut xi, &mut tau);
+    let mut workspace = ContinuousSystem::workspace::<S>(model, g);
+    model.velocity_and_force::<S>(S::zero(), g, mu, &mut workspace, &mut xi, &mut tau);
     (xi, tau)
 }
 

@@ -1,0 +1,156 @@
+//! The laws of a discrete Lagrangian and of its integrator, for a test of your own.
+//!
+//! | question | call |
+//! |---|---|
+//! | Are the hand-written derivatives those of the value? Is a step solved, symplectic, reversible? | [`check`] |
+//! | Is $L_d$ the discrete form of this $L$, to the order at all? | [`check_consistency`] |
+//! | Is this a symmetry, and its momentum map kept? | [`check_symmetry`] |
+//! | Is the method of the order that it declares? | [`check_order`] |
+//! | The same for an integrator that was not made here | [`check_step`], [`check_symplecticity`], [`check_reversibility`] |
+//!
+//! Every failure names the formula, the component and both numbers.
+//!
+//! ```
+//! use dvi::{DiscreteLagrangian, Lagrangian, LeftTranslation, Midpoint, Variational, laws};
+//! use lie::{LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
+//!
+//! /// A rigid body with the moments of inertia 1, 2 and 3 kg m².
+//! struct Body;
+//!
+//! impl Lagrangian for Body {
+//!     type Group = SO3;
+//!     fn value<S: Scalar>(&self, _: &SO3<S>, omega: &Tangent<3, S>) -> S {
+//!         let j = Mat3::diagonal([1.0, 2.0, 3.0]).lift::<S>();
+//!         omega.vec3().dot(j * omega.vec3()) * S::from_f64(0.5)
+//!     }
+//! }
+//!
+//! let start = Body.state(0.0, SO3::exp(&Tangent([0.3, -0.5, 1.0])), &Tangent([0.2, 1.0, 0.1]));
+//! let (states, discrete) = ([start.clone()], Body.discretise::<Midpoint>());
+//! laws::check(&discrete, &states, 0.1)?;
+//! laws::check_consistency(&discrete, &Body, &states)?;
+//! laws::check_symmetry(&discrete, &LeftTranslation(Tangent([0.0, 0.0, 1.0])), &states, 0.1)?;
+//! let order = laws::check_order(|| Variational::new(&discrete), &start, 1.0, &[8, 16, 32, 64])?;
+//! assert!((order.slope - 2.0).abs() < 0.05);
+//!
+//! // The spin about a body axis is no symmetry of this body, and the answer says so.
+//! let axis = dvi::RightTranslation(Tangent([0.0, 0.0, 1.0]));
+//! let error = laws::check_symmetry(&discrete, &axis, &states, 0.1).unwrap_err();
+//! assert!(error.to_string().contains("L_d(a g, (a g)^-1 a (g f)) = L_d(g, f)"));
+//! # Ok::<(), laws::LawError>(())
+//! ```
+
+mod compare;
+mod derivatives;
+mod order;
+mod steps;
+mod symmetry;
+
+use thiserror::Error;
+
+use crate::{DiscreteLagrangian, State, StepError, Variational};
+use compare::Checker;
+
+pub use derivatives::check_consistency;
+pub use order::{Order, check_order, observed_order};
+pub use steps::{check_reversibility, check_step, check_symplecticity, symplectic_defect};
+pub use symmetry::check_symmetry;
+
+/// What a check did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Report {
+    /// Numbers compared.
+    pub comparisons: usize,
+    /// The largest ratio of a difference to its tolerance; below one.
+    pub worst: f64,
+}
+
+/// Why a check did not pass.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LawError {
+    /// There was nothing to try the laws on.
+    #[error("no {what} to check on: give at least one, laws cannot pass on nothing")]
+    NoExamples {
+        /// What was missing.
+        what: &'static str,
+    },
+    /// A law does not hold.
+    #[error(
+        "the law {formula} fails for {case}: component {component} is {left:.17e} on the left and {right:.17e} on the right (tolerance {tolerance:.1e})"
+    )]
+    Violated {
+        /// The law.
+        formula: &'static str,
+        /// The example it fails on.
+        case: String,
+        /// The coordinate.
+        component: usize,
+        /// The left-hand side there.
+        left: f64,
+        /// The right-hand side there.
+        right: f64,
+        /// The largest difference that rounding and the solver's tolerance explain.
+        tolerance: f64,
+    },
+    /// The observed order is not the declared one.
+    #[error(
+        "the observed order is {observed:.3}, the declared one {declared}; step sizes and errors: {errors:?}"
+    )]
+    Order {
+        /// What the integrator declares.
+        declared: u32,
+        /// The slope of the log–log fit.
+        observed: f64,
+        /// Step sizes, s, and errors of the fit.
+        errors: Vec<(f64, f64)>,
+    },
+    /// A step that a law speaks of was refused.
+    #[error("a step was refused: {0}")]
+    Step(#[from] StepError),
+}
+
+type Outcome = Result<(), LawError>;
+
+/// Checks a discrete Lagrangian on examples, with steps of size `h`.
+///
+/// - the derivatives $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$ and $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$
+///   against dual numbers and central differences of the value;
+/// - where declared symmetric, $L_d(t, g, f, h) = -L_d(t + h, g f, f^{-1}, -h)$;
+/// - of the step: both discrete Legendre transforms against the momenta ([`check_step`]), symplecticity
+///   ([`check_symplecticity`]) and, where declared symmetric, reversibility ([`check_reversibility`]).
+///
+/// With a [force](crate::Forced), check the Lagrangian without it here, and the whole by [`check_step`] and [`check_order`].
+///
+/// # Errors
+/// [`LawError`] with the first law that fails.
+pub fn check<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    states: &[State<L::Group>],
+    h: f64,
+) -> Result<Report, LawError> {
+    examples(states)?;
+    let mut checker = Checker::default();
+    for state in states {
+        derivatives::check(&mut checker, lagrangian, state, h)?;
+    }
+    let mut integrator = Variational::new(lagrangian);
+    for state in states {
+        steps::legendre(&mut checker, &mut integrator, lagrangian, state, h)?;
+        if lagrangian.is_symplectic() {
+            steps::symplecticity(&mut checker, &mut integrator, state, h)?;
+        }
+        if lagrangian.is_symmetric() {
+            steps::reversibility(&mut checker, &mut integrator, state, h)?;
+        }
+    }
+    Ok(checker.report())
+}
+
+fn examples<T>(states: &[T]) -> Outcome {
+    match states {
+        [] => Err(LawError::NoExamples { what: "state" }),
+        _ => Ok(()),
+    }
+}
