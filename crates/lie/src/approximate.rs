@@ -2,7 +2,7 @@
 
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};
 
-use crate::{Cotangent, Mat3, Power, Rn, SE3, SO3, Tangent, Vec3};
+use crate::{Cotangent, Mat3, Power, Rn, SE2, SE3, SO2, SO3, Tangent, Vec3};
 
 /// Implements the traits for a type by its entries, each comparable.
 macro_rules! by_entries {
@@ -51,6 +51,8 @@ by_entries!([], SE3<S>, |g| g
     .rotation
     .entries()
     .chain(g.translation.entries()));
+by_entries!([], SO2<S>, |r| r.parts().into_iter());
+by_entries!([], SE2<S>, |g| g.rotation.entries().chain(&g.translation));
 by_entries!([const N: usize], Rn<N, S>, |x| x.0.iter());
 by_entries!([const N: usize], Tangent<N, S>, |xi| xi.0.iter());
 by_entries!([const N: usize], Cotangent<N, S>, |mu| mu.0.iter());

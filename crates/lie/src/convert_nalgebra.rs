@@ -1,10 +1,11 @@
 //! Conversions to and from `nalgebra`.
 
 use nalgebra::{
-    Isometry3, Matrix3, Rotation3, SVector, Scalar as Number, Translation3, UnitQuaternion, Vector3,
+    Isometry2, Isometry3, Matrix3, Rotation3, SVector, Scalar as Number, Translation2,
+    Translation3, UnitComplex, UnitQuaternion, Vector3,
 };
 
-use crate::{Cotangent, Mat3, R3, SE3, SO3, Tangent, Vec3};
+use crate::{Cotangent, Mat3, R3, SE2, SE3, SO2, SO3, Tangent, Vec3};
 
 impl<S: Number> From<Vec3<S>> for Vector3<S> {
     fn from(x: Vec3<S>) -> Self {
@@ -76,6 +77,30 @@ impl From<Isometry3<f64>> for SE3 {
     }
 }
 
+impl From<SO2> for UnitComplex<f64> {
+    fn from(r: SO2) -> Self {
+        Self::from_cos_sin_unchecked(r.cos(), r.sin())
+    }
+}
+
+impl From<UnitComplex<f64>> for SO2 {
+    fn from(r: UnitComplex<f64>) -> Self {
+        Self::from_cos_sin_unchecked(r.re, r.im)
+    }
+}
+
+impl From<SE2> for Isometry2<f64> {
+    fn from(g: SE2) -> Self {
+        Self::from_parts(Translation2::from(g.translation), g.rotation.into())
+    }
+}
+
+impl From<Isometry2<f64>> for SE2 {
+    fn from(g: Isometry2<f64>) -> Self {
+        Self::new(g.rotation.into(), g.translation.vector.into())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -89,5 +114,15 @@ mod tests {
         let moved = Isometry3::from(g) * nalgebra::Point3::new(1.0, 2.0, 3.0);
         let expected = g.rotation.rotate(Vec3([1.0, 2.0, 3.0])) + g.translation;
         approx::assert_abs_diff_eq!(Vec3::from(moved.coords), expected, epsilon = 1e-15);
+    }
+
+    #[test]
+    fn a_displacement_of_the_plane_survives_the_round_trip() {
+        let g = SE2::exp(&Tangent([0.3, -0.4, 1.2]));
+        assert_eq!(SE2::from(Isometry2::from(g)), g);
+        let moved = Isometry2::from(g) * nalgebra::Point2::new(1.0, 2.0);
+        let (turned, shift) = (g.rotation.rotate([1.0, 2.0]), g.translation);
+        approx::assert_abs_diff_eq!(moved.x, turned[0] + shift[0], epsilon = 1e-15);
+        approx::assert_abs_diff_eq!(moved.y, turned[1] + shift[1], epsilon = 1e-15);
     }
 }

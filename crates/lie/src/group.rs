@@ -2,9 +2,9 @@
 
 use core::fmt::Debug;
 
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
-use crate::{Jet, NotUnique, OutsideChart, Scalar, VectorSpace, dense};
+use crate::{Jet, NotUnique, OutsideChart, Retraction, Scalar, VectorSpace, dense};
 
 /// The group `G` with its numbers replaced by `S`.
 pub type Over<G, S> = <G as LieGroup>::WithScalar<S>;
@@ -111,6 +111,25 @@ pub trait LieGroup: Clone + Debug + PartialEq {
         dense::solve::<Self>(eta, |e| Self::dexp(xi, e))
     }
 
+    /// $(\mathrm d\exp_\xi)^\ast \mu$, the $\nu$ with
+    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\exp_\xi \eta\rangle$.
+    fn dexp_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::dexp(xi, e))
+    }
+
+    /// $(\mathrm d\exp_\xi^{-1})^\ast \mu$, the $\nu$ with
+    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\exp_\xi^{-1} \eta\rangle$.
+    fn dexp_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::dexp_inv(xi, e))
+    }
+
+    /// The gradient in $\xi$ of $\langle \mu, \mathrm d\exp_\xi^{-1} \eta\rangle$, with $\mu$ and $\eta$ fixed.
+    ///
+    /// The default goes back through the series of [`dexp`](Self::dexp)'s default, and is right where that is.
+    fn dexp_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
+        dense::dexp_inv_gradient::<Self>(xi, mu, eta)
+    }
+
     /// The Cayley map $\mathrm{cay}(\xi) = (1 - \xi/2)^{-1} (1 + \xi/2)$ of a matrix group whose defining
     /// form is quadratic; by default the exponential.
     ///
@@ -136,6 +155,41 @@ pub trait LieGroup: Clone + Debug + PartialEq {
     /// $\mathrm d\mathrm{cay}_\xi^{-1} \eta$, left-trivialised.
     fn dcay_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
         Self::dexp_inv(xi, eta)
+    }
+
+    /// $(\mathrm d\mathrm{cay}_\xi)^\ast \mu$, the $\nu$ with
+    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\mathrm{cay}_\xi \eta\rangle$.
+    fn dcay_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::dcay(xi, e))
+    }
+
+    /// $(\mathrm d\mathrm{cay}_\xi^{-1})^\ast \mu$, the $\nu$ with
+    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\mathrm{cay}_\xi^{-1} \eta\rangle$.
+    fn dcay_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::dcay_inv(xi, e))
+    }
+
+    /// The gradient in $\xi$ of $\langle \mu, \mathrm d\mathrm{cay}_\xi^{-1} \eta\rangle$, with $\mu$ and $\eta$
+    /// fixed; by default the exponential's, as the map is.
+    fn dcay_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
+        Self::dexp_inv_gradient(xi, mu, eta)
+    }
+
+    /// The square root nearest the identity: the $h$ with $h h = g$, halfway from $e$ to $g$ on the one-parameter
+    /// subgroup; where there are several, one of them.
+    ///
+    /// ```
+    /// use lie::{LieGroup, SO3, Tangent};
+    ///
+    /// let xi = Tangent([0.2, -0.4, 1.0]);
+    /// let (whole, half): (SO3, SO3) = (SO3::exp(&xi), SO3::exp(&(xi * 0.5)));
+    /// assert!((*whole.sqrt().matrix() - *half.matrix()).frobenius() < 1e-15);
+    /// ```
+    fn sqrt(&self) -> Self {
+        let mut half = self.zero_algebra();
+        let log = self.log().unwrap_or_else(|e| e.representative);
+        half.add_scaled(Self::Scalar::from_f64(0.5), &log);
+        Self::exp(&half)
     }
 
     /// Whether every number of the element is finite; by the logarithm unless given.
@@ -170,6 +224,67 @@ pub trait LieGroup: Clone + Debug + PartialEq {
     #[inline(always)]
     fn cayley_into(xi: &Self::Algebra, out: &mut Self) {
         *out = Self::cayley(xi);
+    }
+
+    /// $\mathrm{Ad}^\ast\_{g^{-1}} \mu$ into `out`: from the frame of $g$ to the frame of the identity.
+    #[inline(always)]
+    fn inverse_coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
+        *out = self.inverse().coadjoint(mu);
+    }
+
+    /// The zero of the numbers that [`advance`](Self::advance) carries, of this element's shape.
+    fn zero_carry(&self) -> Self {
+        self.clone()
+    }
+
+    /// $g \leftarrow g f$ for an $f$ near the identity, with the rounding error carried over to the next time.
+    ///
+    /// Where the product is a sum of $g$ and a small increment, `carry` holds what the last sum has lost (W. Kahan); it
+    /// starts as [`zero_carry`](Self::zero_carry). The default does not compensate.
+    #[inline(always)]
+    fn advance(&mut self, f: &Self, _carry: &mut Self) {
+        *self = self.compose(f);
+    }
+
+    /// From canonical coordinates $(c, \pi)$ of a chart $\tau$ about the identity: $f = \tau(c)$ and the momentum
+    /// $\mu = (\mathrm d\tau_c^{-1})^\ast \pi$.
+    #[inline(always)]
+    fn chart_enter_into<R: Retraction>(
+        c: &Self::Algebra,
+        pi: &Self::Dual,
+        (f, mu): (&mut Self, &mut Self::Dual),
+    ) {
+        R::retract_into::<Self>(c, f);
+        *mu = R::d_left_inv_dual::<Self>(c, pi);
+    }
+
+    /// To canonical coordinates at the end of a displacement: with $P$ the momentum in the frame of its start, $f = \tau(c)$,
+    /// $\mu = \mathrm{Ad}^\ast\_f P$ and $\pi = (\mathrm d\tau_c)^\ast \mu$.
+    #[inline(always)]
+    fn chart_leave_into<R: Retraction>(
+        c: &Self::Algebra,
+        momentum: &Self::Dual,
+        (f, mu, pi): (&mut Self, &mut Self::Dual, &mut Self::Dual),
+    ) {
+        R::retract_into::<Self>(c, f);
+        f.coadjoint_into(momentum, mu);
+        *pi = R::d_left_dual::<Self>(c, mu);
+    }
+
+    /// Hamilton's equations in the chart, with $f = \tau(c)$, the velocity $\xi$ and the force $\tau$:
+    /// $\dot c = \mathrm d\tau_c^{-1} \xi$,
+    /// $\dot\pi = (\mathrm d\tau_c)^\ast \tau - \partial_c \langle \pi, \mathrm d\tau_c^{-1} \xi\rangle$; and $\mathrm{Ad}^\ast\_{f^{-1}} \tau$.
+    #[inline(always)]
+    fn chart_rates_into<R: Retraction>(
+        (c, pi, f): (&Self::Algebra, &Self::Dual, &Self),
+        (xi, tau): (&Self::Algebra, &Self::Dual),
+        (c_dot, pi_dot, force): (&mut Self::Algebra, &mut Self::Dual, &mut Self::Dual),
+    ) {
+        *c_dot = R::d_left_inv::<Self>(c, xi);
+        *pi_dot = R::d_left_dual::<Self>(c, tau);
+        let gradient = R::d_left_inv_gradient::<Self>(c, pi, xi);
+        pi_dot.add_scaled(-Self::Scalar::one(), &gradient);
+        f.inverse_coadjoint_into(tau, force);
     }
 
     /// [`convert`](Self::convert) into `out`.

@@ -19,6 +19,8 @@
 //! |---|---|---|
 //! | rotations $SO(3)$ | [`SO3`] | [`Tangent<3>`](Tangent), [`Cotangent<3>`](Cotangent) |
 //! | displacements $SE(3)$ | [`SE3`] | [`Tangent<6>`](Tangent), [`Cotangent<6>`](Cotangent): rotation first |
+//! | rotations of the plane $SO(2)$ | [`SO2`] | [`Tangent<1>`](Tangent), [`Cotangent<1>`](Cotangent) |
+//! | displacements of the plane $SE(2)$ | [`SE2`] | [`Tangent<3>`](Tangent), [`Cotangent<3>`](Cotangent): rotation first |
 //! | $\mathbb{R}^n$ | [`Rn<N>`](Rn), [`R3`] | [`Tangent<N>`](Tangent), [`Cotangent<N>`](Cotangent) |
 //! | direct products | tuples of 2 to 4 groups | tuples |
 //! | powers $G^N$ | `[G; N]` | arrays |
@@ -31,6 +33,7 @@
 //! |---|---|---|
 //! | product, inverse | $g h$, $g^{-1}$ | [`g.compose(&h)`](LieGroup::compose), [`g.inverse()`](LieGroup::inverse) |
 //! | exponential, logarithm | $\exp \xi$, $\log g$ | [`G::exp(&xi)`](LieGroup::exp), [`g.log()`](LieGroup::log) |
+//! | square root | $h h = g$, $h$ nearest $e$ | [`g.sqrt()`](LieGroup::sqrt) |
 //! | Cayley map | $(1 - \xi/2)^{-1} (1 + \xi/2)$ | [`G::cayley(&xi)`](LieGroup::cayley), [`g.cayley_inverse()`](LieGroup::cayley_inverse) |
 //! | adjoint action | $\mathrm{Ad}_g \xi = g \xi g^{-1}$ | [`g.adjoint(&xi)`](LieGroup::adjoint) |
 //! | bracket | $\mathrm{ad}_\xi \eta = [\xi, \eta]$ | [`G::bracket(&xi, &eta)`](LieGroup::bracket) |
@@ -39,6 +42,8 @@
 //! | its derivative | $\langle \mathrm{ad}^\ast_\xi \mu, \eta \rangle = \langle \mu, \mathrm{ad}_\xi \eta \rangle$ | [`G::coadjoint_bracket(&xi, &mu)`](LieGroup::coadjoint_bracket) |
 //! | left-trivialised differential | $\mathrm d\exp_\xi \eta = \exp(-\xi) \frac{d}{ds} \exp(\xi + s \eta)$ at $s = 0$ | [`G::dexp(&xi, &eta)`](LieGroup::dexp), [`Retraction::d_left`] |
 //! | right-trivialised differential | $\frac{d}{ds} \exp(\xi + s \eta) \exp(-\xi)$ at $s = 0$ | [`Retraction::d_right`] |
+//! | its transpose | $\langle (\mathrm d\exp_\xi)^\ast \mu, \eta \rangle = \langle \mu, \mathrm d\exp_\xi \eta \rangle$ | [`G::dexp_dual(&xi, &mu)`](LieGroup::dexp_dual), [`Retraction::d_left_dual`] |
+//! | gradient of the inverse | $\nabla_\xi \langle \mu, \mathrm d\exp_\xi^{-1} \eta \rangle$ | [`G::dexp_inv_gradient(&xi, &mu, &eta)`](LieGroup::dexp_inv_gradient), [`Retraction::d_left_inv_gradient`] |
 //! | hat, vee | $\hat x y = x \times y$ | [`Vec3::hat`], [`Mat3::vee`] |
 //!
 //! Trivialisation is on the left everywhere: $\dot g = g \xi$, and velocities of rigid bodies are in the body's frame.
@@ -74,12 +79,15 @@ mod error;
 mod group;
 pub mod laws;
 mod matrix;
+mod plane;
 mod power;
 mod product;
 mod retraction;
 mod rn;
 mod scalar;
+mod se2;
 mod se3;
+mod so2;
 mod so3;
 mod stumpff;
 mod vector;
@@ -92,7 +100,9 @@ pub use power::Power;
 pub use retraction::{Cayley, Exp, Retraction};
 pub use rn::{R3, Rn};
 pub use scalar::{JET_DIRECTIONS, Jet, Scalar};
+pub use se2::SE2;
 pub use se3::SE3;
+pub use so2::SO2;
 pub use so3::SO3;
 pub use vector::Vec3;
 pub use vector_space::{Cotangent, Tangent, VectorSpace};

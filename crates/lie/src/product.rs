@@ -6,7 +6,7 @@ use core::array::from_fn;
 
 use num_traits::Zero;
 
-use crate::{LieGroup, NotUnique, OutsideChart, Over, Power, Scalar, VectorSpace};
+use crate::{LieGroup, NotUnique, OutsideChart, Over, Power, Retraction, Scalar, VectorSpace};
 
 /// Collects the factors' logarithms: unique where all are.
 struct Logs {
@@ -86,6 +86,10 @@ macro_rules! tuple {
             #[inline(always)]
             fn set_zero(&mut self) {
                 $(self.$i.set_zero();)+
+            }
+            #[inline(always)]
+            fn scale(&mut self, a: S) {
+                $(self.$i.scale(a);)+
             }
             #[inline(always)]
             fn add_scaled(&mut self, a: S, y: &Self) {
@@ -199,6 +203,34 @@ macro_rules! tuple {
                 ($($G::dcay_inv(&xi.$i, &eta.$i),)+)
             }
             #[inline(always)]
+            fn dexp_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                ($($G::dexp_dual(&xi.$i, &mu.$i),)+)
+            }
+            #[inline(always)]
+            fn dexp_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                ($($G::dexp_inv_dual(&xi.$i, &mu.$i),)+)
+            }
+            #[inline(always)]
+            fn dcay_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                ($($G::dcay_dual(&xi.$i, &mu.$i),)+)
+            }
+            #[inline(always)]
+            fn dcay_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                ($($G::dcay_inv_dual(&xi.$i, &mu.$i),)+)
+            }
+            #[inline(always)]
+            fn dexp_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
+                ($($G::dexp_inv_gradient(&xi.$i, &mu.$i, &eta.$i),)+)
+            }
+            #[inline(always)]
+            fn dcay_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
+                ($($G::dcay_inv_gradient(&xi.$i, &mu.$i, &eta.$i),)+)
+            }
+            #[inline(always)]
+            fn sqrt(&self) -> Self {
+                ($(self.$i.sqrt(),)+)
+            }
+            #[inline(always)]
             fn is_finite(&self) -> bool {
                 $(self.$i.is_finite())&&+
             }
@@ -213,6 +245,50 @@ macro_rules! tuple {
             #[inline(always)]
             fn coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
                 $(self.$i.coadjoint_into(&mu.$i, &mut out.$i);)+
+            }
+            #[inline(always)]
+            fn inverse_coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
+                $(self.$i.inverse_coadjoint_into(&mu.$i, &mut out.$i);)+
+            }
+            #[inline(always)]
+            fn zero_carry(&self) -> Self {
+                ($(self.$i.zero_carry(),)+)
+            }
+            #[inline(always)]
+            fn advance(&mut self, f: &Self, carry: &mut Self) {
+                $(self.$i.advance(&f.$i, &mut carry.$i);)+
+            }
+            #[inline(always)]
+            fn chart_enter_into<R_: Retraction>(
+                c: &Self::Algebra,
+                pi: &Self::Dual,
+                (f, mu): (&mut Self, &mut Self::Dual),
+            ) {
+                $($G::chart_enter_into::<R_>(&c.$i, &pi.$i, (&mut f.$i, &mut mu.$i));)+
+            }
+            #[inline(always)]
+            fn chart_leave_into<R_: Retraction>(
+                c: &Self::Algebra,
+                momentum: &Self::Dual,
+                (f, mu, pi): (&mut Self, &mut Self::Dual, &mut Self::Dual),
+            ) {
+                $($G::chart_leave_into::<R_>(
+                    &c.$i,
+                    &momentum.$i,
+                    (&mut f.$i, &mut mu.$i, &mut pi.$i),
+                );)+
+            }
+            #[inline(always)]
+            fn chart_rates_into<R_: Retraction>(
+                (c, pi, f): (&Self::Algebra, &Self::Dual, &Self),
+                (xi, tau): (&Self::Algebra, &Self::Dual),
+                (c_dot, pi_dot, force): (&mut Self::Algebra, &mut Self::Dual, &mut Self::Dual),
+            ) {
+                $($G::chart_rates_into::<R_>(
+                    (&c.$i, &pi.$i, &f.$i),
+                    (&xi.$i, &tau.$i),
+                    (&mut c_dot.$i, &mut pi_dot.$i, &mut force.$i),
+                );)+
             }
             #[inline(always)]
             fn exp_into(xi: &Self::Algebra, out: &mut Self) {
@@ -283,6 +359,10 @@ macro_rules! repeated {
             #[inline(always)]
             fn set_zero(&mut self) {
                 self.iter_mut().for_each(VectorSpace::set_zero);
+            }
+            #[inline(always)]
+            fn scale(&mut self, a: $G::Scalar) {
+                self.iter_mut().for_each(|x| x.scale(a));
             }
             #[inline(always)]
             fn add_scaled(&mut self, a: $G::Scalar, y: &Self) {
@@ -405,6 +485,34 @@ macro_rules! repeated {
                 $map(xi.len(), |i: usize| $G::dcay_inv(&xi[i], &eta[i]))
             }
             #[inline(always)]
+            fn dexp_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::dexp_dual(&xi[i], &mu[i]))
+            }
+            #[inline(always)]
+            fn dexp_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::dexp_inv_dual(&xi[i], &mu[i]))
+            }
+            #[inline(always)]
+            fn dcay_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::dcay_dual(&xi[i], &mu[i]))
+            }
+            #[inline(always)]
+            fn dcay_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::dcay_inv_dual(&xi[i], &mu[i]))
+            }
+            #[inline(always)]
+            fn dexp_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::dexp_inv_gradient(&xi[i], &mu[i], &eta[i]))
+            }
+            #[inline(always)]
+            fn dcay_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::dcay_inv_gradient(&xi[i], &mu[i], &eta[i]))
+            }
+            #[inline(always)]
+            fn sqrt(&self) -> Self {
+                $map(self.len(), |i: usize| self[i].sqrt())
+            }
+            #[inline(always)]
             fn is_finite(&self) -> bool {
                 self.iter().all(LieGroup::is_finite)
             }
@@ -422,6 +530,54 @@ macro_rules! repeated {
             fn coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
                 for ((g, mu), out) in self.iter().zip(mu.iter()).zip(out.iter_mut()) {
                     g.coadjoint_into(mu, out);
+                }
+            }
+            #[inline(always)]
+            fn inverse_coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
+                for ((g, mu), out) in self.iter().zip(mu.iter()).zip(out.iter_mut()) {
+                    g.inverse_coadjoint_into(mu, out);
+                }
+            }
+            #[inline(always)]
+            fn zero_carry(&self) -> Self {
+                $map(self.len(), |i: usize| self[i].zero_carry())
+            }
+            #[inline(always)]
+            fn advance(&mut self, f: &Self, carry: &mut Self) {
+                for ((g, f), carry) in self.iter_mut().zip(f.iter()).zip(carry.iter_mut()) {
+                    g.advance(f, carry);
+                }
+            }
+            #[inline(always)]
+            fn chart_enter_into<R_: Retraction>(
+                c: &Self::Algebra,
+                pi: &Self::Dual,
+                (f, mu): (&mut Self, &mut Self::Dual),
+            ) {
+                for i in 0..c.len() {
+                    $G::chart_enter_into::<R_>(&c[i], &pi[i], (&mut f[i], &mut mu[i]));
+                }
+            }
+            #[inline(always)]
+            fn chart_leave_into<R_: Retraction>(
+                c: &Self::Algebra,
+                momentum: &Self::Dual,
+                (f, mu, pi): (&mut Self, &mut Self::Dual, &mut Self::Dual),
+            ) {
+                for i in 0..c.len() {
+                    let out = (&mut f[i], &mut mu[i], &mut pi[i]);
+                    $G::chart_leave_into::<R_>(&c[i], &momentum[i], out);
+                }
+            }
+            #[inline(always)]
+            fn chart_rates_into<R_: Retraction>(
+                (c, pi, f): (&Self::Algebra, &Self::Dual, &Self),
+                (xi, tau): (&Self::Algebra, &Self::Dual),
+                (c_dot, pi_dot, force): (&mut Self::Algebra, &mut Self::Dual, &mut Self::Dual),
+            ) {
+                for i in 0..c.len() {
+                    let out = (&mut c_dot[i], &mut pi_dot[i], &mut force[i]);
+                    $G::chart_rates_into::<R_>((&c[i], &pi[i], &f[i]), (&xi[i], &tau[i]), out);
                 }
             }
             #[inline(always)]

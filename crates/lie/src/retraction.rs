@@ -37,6 +37,26 @@ pub trait Retraction: Copy + Debug + Default + 'static {
     /// The inverse of [`d_left`](Self::d_left) in `eta`.
     fn d_left_inv<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra;
 
+    /// The transpose of [`d_left`](Self::d_left): the $\nu$ with
+    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\tau_\xi \eta\rangle$.
+    fn d_left_dual<G: LieGroup>(xi: &G::Algebra, mu: &G::Dual) -> G::Dual;
+
+    /// The transpose of [`d_left_inv`](Self::d_left_inv).
+    fn d_left_inv_dual<G: LieGroup>(xi: &G::Algebra, mu: &G::Dual) -> G::Dual;
+
+    /// The gradient in $\xi$ of $\langle \mu, \mathrm d\tau_\xi^{-1} \eta\rangle$, with $\mu$ and $\eta$ fixed.
+    ///
+    /// ```
+    /// use lie::{Cayley, Cotangent, Retraction, SO3, Tangent};
+    ///
+    /// // At zero, the map is 1 + ad/2 to first order.
+    /// let (xi, mu, eta) = (Tangent([0.0; 3]), Cotangent([1.0, 0.0, 0.0]), Tangent([0.0, 1.0, 0.0]));
+    /// let gradient = Cayley::d_left_inv_gradient::<SO3>(&xi, &mu, &eta);
+    /// assert_eq!(gradient, Cotangent([0.0, 0.0, -0.5]));
+    /// ```
+    fn d_left_inv_gradient<G: LieGroup>(xi: &G::Algebra, mu: &G::Dual, eta: &G::Algebra)
+    -> G::Dual;
+
     /// The right-trivialised differential: $\frac{d}{ds}\vert_{s=0} \tau(\xi + s \eta) \tau(\xi)^{-1}$, which is
     /// the left-trivialised one at $-\xi$.
     fn d_right<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
@@ -66,7 +86,8 @@ pub struct Exp;
 pub struct Cayley;
 
 macro_rules! retraction {
-    ($name:ident, $label:literal, $map:ident, $into:ident, $d:ident, $d_inv:ident, $inverse:expr) => {
+    ($name:ident, $label:literal, $map:ident, $into:ident, $d:ident, $d_inv:ident,
+     $d_dual:ident, $d_inv_dual:ident, $d_inv_gradient:ident, $inverse:expr) => {
         impl Retraction for $name {
             const NAME: &'static str = $label;
             #[inline(always)]
@@ -89,13 +110,38 @@ macro_rules! retraction {
             fn d_left_inv<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
                 G::$d_inv(xi, eta)
             }
+            #[inline(always)]
+            fn d_left_dual<G: LieGroup>(xi: &G::Algebra, mu: &G::Dual) -> G::Dual {
+                G::$d_dual(xi, mu)
+            }
+            #[inline(always)]
+            fn d_left_inv_dual<G: LieGroup>(xi: &G::Algebra, mu: &G::Dual) -> G::Dual {
+                G::$d_inv_dual(xi, mu)
+            }
+            #[inline(always)]
+            fn d_left_inv_gradient<G: LieGroup>(
+                xi: &G::Algebra,
+                mu: &G::Dual,
+                eta: &G::Algebra,
+            ) -> G::Dual {
+                G::$d_inv_gradient(xi, mu, eta)
+            }
         }
     };
 }
 
-retraction!(Exp, "exp", exp, exp_into, dexp, dexp_inv, |g: &G| g
-    .log()
-    .map_err(|_| OutsideChart));
+retraction!(
+    Exp,
+    "exp",
+    exp,
+    exp_into,
+    dexp,
+    dexp_inv,
+    dexp_dual,
+    dexp_inv_dual,
+    dexp_inv_gradient,
+    |g: &G| g.log().map_err(|_| OutsideChart)
+);
 retraction!(
     Cayley,
     "cayley",
@@ -103,5 +149,8 @@ retraction!(
     cayley_into,
     dcay,
     dcay_inv,
+    dcay_dual,
+    dcay_inv_dual,
+    dcay_inv_gradient,
     G::cayley_inverse
 );

@@ -103,6 +103,21 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
     }
 
     #[inline(always)]
+    fn zero_carry(&self) -> Self {
+        Self::identity()
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, f: &Self, carry: &mut Self) {
+        for i in 0..N {
+            let wanted = f.0[i] + carry.0[i];
+            let sum = self.0[i] + wanted;
+            carry.0[i] = wanted - (sum - self.0[i]);
+            self.0[i] = sum;
+        }
+    }
+
+    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
         *mu
     }
@@ -120,5 +135,39 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
     #[inline(always)]
     fn dexp_inv(_: &Tangent<N, S>, eta: &Tangent<N, S>) -> Tangent<N, S> {
         *eta
+    }
+
+    #[inline(always)]
+    fn dexp_dual(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
+        *mu
+    }
+
+    #[inline(always)]
+    fn dexp_inv_dual(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
+        *mu
+    }
+
+    #[inline(always)]
+    fn dcay_dual(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
+        *mu
+    }
+
+    #[inline(always)]
+    fn dcay_inv_dual(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
+        *mu
+    }
+
+    #[inline(always)]
+    fn dexp_inv_gradient(
+        _: &Tangent<N, S>,
+        _: &Cotangent<N, S>,
+        _: &Tangent<N, S>,
+    ) -> Cotangent<N, S> {
+        Cotangent::zero()
+    }
+
+    #[inline(always)]
+    fn sqrt(&self) -> Self {
+        Self(self.0.map(|x| x * S::from_f64(0.5)))
     }
 }

@@ -33,14 +33,26 @@ pub trait Scalar:
     /// The outcome of a comparison: `bool`, or one bit a lane.
     type Mask: Copy;
 
+    /// The numbers without their derivatives: what is left of a dual number at any depth.
+    type Real: Scalar<Real = Self::Real>;
+
     /// Dual numbers over this scalar with [`JET_DIRECTIONS`] directions.
     type Jet: Jet<Value = Self>;
 
     /// The distance from 1 to the next larger number of the underlying float.
     const EPSILON: f64;
 
+    /// How many levels of dual numbers this scalar nests: 0 for floats, one more than the inner scalar's for duals.
+    const DUAL_LEVELS: u32;
+
     /// The nearest number to `x`, a constant under differentiation.
     fn from_f64(x: f64) -> Self;
+
+    /// The value without derivatives.
+    fn real(self) -> Self::Real;
+
+    /// A constant under differentiation.
+    fn from_real(x: Self::Real) -> Self;
 
     /// The square root.
     fn sqrt(self) -> Self;
@@ -91,12 +103,22 @@ macro_rules! float {
     ($float:ident) => {
         impl Scalar for $float {
             type Mask = bool;
+            type Real = $float;
             type Jet = DualSVec<$float, JET_DIRECTIONS>;
             const EPSILON: f64 = $float::EPSILON as f64;
+            const DUAL_LEVELS: u32 = 0;
 
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 x as $float
+            }
+            #[inline(always)]
+            fn real(self) -> $float {
+                self
+            }
+            #[inline(always)]
+            fn from_real(x: $float) -> Self {
+                x
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
@@ -133,12 +155,22 @@ macro_rules! dual {
     ([$($generics:tt)*], $dual:ty) => {
         impl<T: Scalar + DualNum, $($generics)*> Scalar for $dual {
             type Mask = bool;
+            type Real = <T as Scalar>::Real;
             type Jet = DualSVec<Self, JET_DIRECTIONS>;
             const EPSILON: f64 = T::EPSILON;
+            const DUAL_LEVELS: u32 = T::DUAL_LEVELS + 1;
 
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 Self::from_re(<T as Scalar>::from_f64(x))
+            }
+            #[inline(always)]
+            fn real(self) -> <T as Scalar>::Real {
+                Scalar::real(self.re)
+            }
+            #[inline(always)]
+            fn from_real(x: <T as Scalar>::Real) -> Self {
+                Self::from_re(<T as Scalar>::from_real(x))
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
@@ -150,7 +182,10 @@ macro_rules! dual {
             }
             #[inline(always)]
             fn atan2(self, x: Self) -> Self {
-                DualNum::atan2(&self, x)
+                // Not the method of `DualNum`, whose derivative divides by x: it may be zero.
+                let [a, b] = [x.re, self.re].map(Self::from_re);
+                let change = (a * self - b * x) / (a * a + b * b);
+                Self::from_re(Scalar::atan2(self.re, x.re)) + change
             }
             #[inline(always)]
             fn less(self, rhs: Self) -> bool {

@@ -1,6 +1,6 @@
 //! SE(3): rigid displacements of space.
 
-use crate::stumpff::stumpff;
+use crate::stumpff::{stumpff, stumpff_next};
 use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO3, Scalar, Tangent, Vec3};
 
 /// A rigid displacement $y \mapsto R y + x$, the semidirect product $SO(3) \ltimes \mathbb{R}^3$.
@@ -61,6 +61,54 @@ impl<S: Scalar> SE3<S> {
             power = Self::bracket(xi, &power);
             sum + power * a
         })
+    }
+
+    /// The transpose of [the polynomial in $\mathrm{ad}$](Self::ad_polynomial): the same one in $\mathrm{ad}^\ast$.
+    #[inline(always)]
+    fn coad_polynomial(xi: &Tangent<6, S>, mu: &Cotangent<6, S>, a: [S; 4]) -> Cotangent<6, S> {
+        let mut power = *mu;
+        a.into_iter().fold(*mu, |sum, a| {
+            power = Self::coadjoint_bracket(xi, &power);
+            sum + power * a
+        })
+    }
+
+    /// A polynomial of degree 4 in $\mathrm{ad}\_\xi$, whose minimal polynomial is $\lambda(\lambda^2 + \theta^2)^2$:
+    /// J. M. Selig, *Geometric Fundamentals of Robotics* (2005), ch. 4, rewritten in Stumpff functions.
+    #[inline(always)]
+    fn dexp_coefficients(xi: &Tangent<6, S>) -> [S; 4] {
+        let (w, _) = xi.split();
+        let [c1, c2, c3, c4, c5, _] = stumpff(w.norm_squared());
+        let (half, c) = (S::from_f64(0.5), S::from_f64);
+        let a1 = (c(4.0) * c2 - c1) * half;
+        let a2 = (c(5.0) * c3 - c2) * half;
+        let a3 = (c3 - c(2.0) * c4) * half;
+        let a4 = (c4 - c(3.0) * c5) * half;
+        [-a1, a2, -a3, a4]
+    }
+
+    /// $1 + \frac12 \mathrm{ad} + \frac{3 c_3 - 8 c_4}{4 c_2} \mathrm{ad}^2 + \frac{4 c_6 - c_5}{4 c_2} \mathrm{ad}^4$; source as above.
+    #[inline(always)]
+    fn dexp_inv_coefficients(xi: &Tangent<6, S>) -> [S; 4] {
+        let (w, _) = xi.split();
+        let [_, c2, c3, c4, c5, c6] = stumpff(w.norm_squared());
+        let c = S::from_f64;
+        let scale = S::one() / (c(4.0) * c2);
+        let b2 = (c(3.0) * c3 - c(8.0) * c4) * scale;
+        let b4 = (c(4.0) * c6 - c5) * scale;
+        [c(0.5), b2, S::zero(), b4]
+    }
+
+    /// The derivative of [`dexp_inv_coefficients`](Self::dexp_inv_coefficients)' last one in $x = |\omega|^2$; that of
+    /// the second is $x$ times as much.
+    ///
+    /// $c_k' = \frac12 (k c_{k+2} - c_{k+1})$ makes it $\frac{c_6 - 9 c_7 + 24 c_8}{8 c_2} + \frac{c_3 - 2 c_4}{2 c_2} b_4$.
+    #[inline(always)]
+    fn dexp_inv_slope(x: S, b4: S) -> S {
+        let [_, c2, c3, c4, c5, c6] = stumpff(x);
+        let ([c7, c8], c) = (stumpff_next(x, [c5, c6]), S::from_f64);
+        let numerator = c6 - c(9.0) * c7 + c(24.0) * c8 + c(4.0) * (c3 - c4 - c4) * b4;
+        numerator / (c(8.0) * c2)
     }
 }
 
@@ -168,30 +216,48 @@ impl<S: Scalar> LieGroup for SE3<S> {
         (angular.cross(w) + linear.cross(v), linear.cross(w)).into()
     }
 
-    /// A polynomial of degree 4 in $\mathrm{ad}\_\xi$, whose minimal polynomial is $\lambda(\lambda^2 + \theta^2)^2$:
-    /// J. M. Selig, *Geometric Fundamentals of Robotics* (2005), ch. 4, rewritten in Stumpff functions.
     #[inline(always)]
     fn dexp(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
-        let (w, _) = xi.split();
-        let [c1, c2, c3, c4, c5, _] = stumpff(w.norm_squared());
-        let (half, c) = (S::from_f64(0.5), S::from_f64);
-        let a1 = (c(4.0) * c2 - c1) * half;
-        let a2 = (c(5.0) * c3 - c2) * half;
-        let a3 = (c3 - c(2.0) * c4) * half;
-        let a4 = (c4 - c(3.0) * c5) * half;
-        Self::ad_polynomial(xi, eta, [-a1, a2, -a3, a4])
+        Self::ad_polynomial(xi, eta, Self::dexp_coefficients(xi))
     }
 
-    /// $1 + \frac12 \mathrm{ad} + \frac{3 c_3 - 8 c_4}{4 c_2} \mathrm{ad}^2 + \frac{4 c_6 - c_5}{4 c_2} \mathrm{ad}^4$; source as [`dexp`](LieGroup::dexp).
     #[inline(always)]
     fn dexp_inv(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
-        let (w, _) = xi.split();
-        let [_, c2, c3, c4, c5, c6] = stumpff(w.norm_squared());
-        let c = S::from_f64;
-        let scale = S::one() / (c(4.0) * c2);
-        let b2 = (c(3.0) * c3 - c(8.0) * c4) * scale;
-        let b4 = (c(4.0) * c6 - c5) * scale;
-        Self::ad_polynomial(xi, eta, [c(0.5), b2, S::zero(), b4])
+        Self::ad_polynomial(xi, eta, Self::dexp_inv_coefficients(xi))
+    }
+
+    #[inline(always)]
+    fn dexp_dual(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
+        Self::coad_polynomial(xi, mu, Self::dexp_coefficients(xi))
+    }
+
+    #[inline(always)]
+    fn dexp_inv_dual(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
+        Self::coad_polynomial(xi, mu, Self::dexp_inv_coefficients(xi))
+    }
+
+    /// Of $\sum_k b_k \langle\mu, t_k\rangle$ with $t_k = \mathrm{ad}\_\xi t_{k-1}$, backwards: $\langle\lambda_k, t_k\rangle$ with
+    /// $\lambda_k = b_k \mu + \mathrm{ad}^\ast_\xi \lambda_{k+1}$ gives $-\mathrm{ad}^\ast_{t_{k-1}} \lambda_k$; then that of the $b_k$.
+    #[inline(always)]
+    fn dexp_inv_gradient(
+        xi: &Tangent<6, S>,
+        mu: &Cotangent<6, S>,
+        eta: &Tangent<6, S>,
+    ) -> Cotangent<6, S> {
+        let ((w, _), b) = (xi.split(), Self::dexp_inv_coefficients(xi));
+        let mut terms = [*eta; 5];
+        for k in 1..5 {
+            terms[k] = Self::bracket(xi, &terms[k - 1]);
+        }
+        let x = w.norm_squared();
+        let along = Self::dexp_inv_slope(x, b[3]) * (x * mu.pair(&terms[2]) + mu.pair(&terms[4]));
+        let mut gradient = Cotangent::from((w * (along + along), Vec3::zero()));
+        let mut lambda = Cotangent::zero();
+        for k in (1..5).rev() {
+            lambda = *mu * b[k - 1] + Self::coadjoint_bracket(xi, &lambda);
+            gradient = gradient - Self::coadjoint_bracket(&terms[k - 1], &lambda);
+        }
+        gradient
     }
 
     /// The Cayley map of the 4×4 matrices: $(\mathrm{cay}(\omega), (1 - \hat\omega/2)^{-1} v)$.
@@ -227,6 +293,66 @@ impl<S: Scalar> LieGroup for SE3<S> {
         let angular = SO3::dcay_inv(&w.into(), &omega.into()).vec3();
         let x = Self::cayley_translation(w, v);
         (angular, u + w.cross(u) * half - angular.cross(x) * half).into()
+    }
+
+    /// $((\mathrm d\mathrm{cay}_\omega)^\ast \pi + \frac12 x \times p, p)$ with $p = (1 - \hat\omega/2)^{-1} q$ and $x$ the
+    /// translation of $\mathrm{cay}(\omega, v)$.
+    #[inline(always)]
+    fn dcay_dual(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
+        let ((w, v), (angular, q)) = (xi.split(), mu.split());
+        let (p, x) = (
+            Self::cayley_translation(w, q),
+            Self::cayley_translation(w, v),
+        );
+        let angular = SO3::dcay_dual(&w.into(), &angular.into()).vec3();
+        (angular + x.cross(p) * S::from_f64(0.5), p).into()
+    }
+
+    /// $((\mathrm d\mathrm{cay}_\omega^{-1})^\ast \pi + \frac12 p \times v, p)$ with $p = (1 - \hat\omega/2) q$.
+    #[inline(always)]
+    fn dcay_inv_dual(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
+        let ((w, v), (angular, q)) = (xi.split(), mu.split());
+        let half = S::from_f64(0.5);
+        let p = q - w.cross(q) * half;
+        let angular = SO3::dcay_inv_dual(&w.into(), &angular.into()).vec3();
+        (angular + p.cross(v) * half, p).into()
+    }
+
+    /// SO(3)'s in $(\omega, \pi, \alpha)$ and that of $p \cdot u'$ with $p = (1 - \hat\omega/2) q$, $u' = u - \frac12 \alpha \times v$:
+    /// $\frac12 (u' \times q, \alpha \times p)$.
+    #[inline(always)]
+    fn dcay_inv_gradient(
+        xi: &Tangent<6, S>,
+        mu: &Cotangent<6, S>,
+        eta: &Tangent<6, S>,
+    ) -> Cotangent<6, S> {
+        let ((w, v), (angular, q), (a, u)) = (xi.split(), mu.split(), eta.split());
+        let half = S::from_f64(0.5);
+        let (p, moved) = (q - w.cross(q) * half, u - a.cross(v) * half);
+        let rotation = SO3::dcay_inv_gradient(&w.into(), &angular.into(), &a.into());
+        (rotation.vec3() + moved.cross(q) * half, a.cross(p) * half).into()
+    }
+
+    /// $(R^{1/2}, (1 + R^{1/2})^{-1} x)$, the inverse as $\frac12 (1 - \hat\omega/2)$ for $R^{1/2} = \mathrm{cay}(\omega)$.
+    #[inline(always)]
+    fn sqrt(&self) -> Self {
+        let (w, half) = (self.rotation.cayley_of_root(), S::from_f64(0.5));
+        let translation = self.translation - w.cross(self.translation) * half;
+        Self::new(SO3::cayley(&w.into()), translation * half)
+    }
+
+    #[inline(always)]
+    fn zero_carry(&self) -> Self {
+        Self::new(self.rotation.zero_carry(), Vec3::zero())
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, f: &Self, carry: &mut Self) {
+        let wanted = self.rotation.rotate(f.translation) + carry.translation;
+        let sum = self.translation + wanted;
+        carry.translation = wanted - (sum - self.translation);
+        self.translation = sum;
+        self.rotation.advance(&f.rotation, &mut carry.rotation);
     }
 
     #[inline(always)]

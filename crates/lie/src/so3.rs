@@ -1,6 +1,6 @@
 //! SO(3): rotations of space.
 
-use crate::stumpff::{stumpff, stumpff2};
+use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
 use crate::{
     Cotangent, LieGroup, Mat3, NotARotation, NotUnique, OutsideChart, Over, Scalar, Tangent, Vec3,
 };
@@ -144,9 +144,30 @@ impl<S: Scalar> SO3<S> {
         Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| S::select(moderate, near[(i, j)], far[(i, j)]))))
     }
 
+    /// Kahan's sum, entry by entry.
+    #[inline(always)]
+    fn add_compensated(&mut self, increment: Mat3<S>, carry: &mut Self) {
+        let wanted = increment + carry.matrix;
+        let sum = self.matrix + wanted;
+        carry.matrix = wanted - (sum - self.matrix);
+        self.matrix = sum;
+    }
+
     /// $\lVert I - R^T R \rVert_F$.
     pub fn orthogonality_error(&self) -> f64 {
         (Mat3::identity() - self.matrix.transpose() * self.matrix).frobenius()
+    }
+
+    /// The $\xi$ with $\mathrm{cay}(\xi)^2 = R$: $2 v / (1 + w)$ for the unit quaternion $(w, v)$ with $w \ge 0$.
+    ///
+    /// It exists up to the angle $\pi$, where the chart of $R$ itself ends.
+    #[inline(always)]
+    pub(crate) fn cayley_of_root(&self) -> Vec3<S> {
+        let [w, x, y, z] = self.to_quaternion();
+        let negative = w.less(S::zero());
+        let two = S::from_f64(2.0);
+        let scale = two / (S::one() + S::select(negative, -w, w));
+        Vec3([x, y, z]) * S::select(negative, -scale, scale)
     }
 
     /// $1 / (1 + |\xi|^2/4)$, the Cayley map's factor.
@@ -255,9 +276,8 @@ impl<S: Scalar> LieGroup for SO3<S> {
     #[inline(always)]
     fn dexp_inv(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
         let (w, eta) = (xi.vec3(), eta.vec3());
-        let [_, c2, c3, c4, ..] = stumpff(w.norm_squared());
+        let [factor, _] = dexp_inv_factor(w.norm_squared());
         let once = w.cross(eta);
-        let factor = (c3 - c4 - c4) / (c2 + c2);
         (eta + once * S::from_f64(0.5) + w.cross(once) * factor).into()
     }
 
@@ -295,6 +315,80 @@ impl<S: Scalar> LieGroup for SO3<S> {
         let (w, eta) = (xi.vec3(), eta.vec3());
         let (half, quarter) = (S::from_f64(0.5), S::from_f64(0.25));
         (eta + w.cross(eta) * half + w * (w.dot(eta) * quarter)).into()
+    }
+
+    /// $\mathrm d\exp_{-\xi}$ as a matrix, for $\hat\xi^T = -\hat\xi$.
+    #[inline(always)]
+    fn dexp_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        Self::dexp(&-*xi, &mu.vec3().into()).vec3().into()
+    }
+
+    #[inline(always)]
+    fn dexp_inv_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        Self::dexp_inv(&-*xi, &mu.vec3().into()).vec3().into()
+    }
+
+    /// $\frac12 \eta \times \mu + g (\mu (\xi\cdot\eta) + \eta (\xi\cdot\mu) - 2 \xi (\mu\cdot\eta)) + 2 g' \xi\, \mu\cdot\hat\xi^2\eta$
+    /// for $\mathrm d\exp_\xi^{-1} = 1 + \frac12 \hat\xi + g(|\xi|^2) \hat\xi^2$.
+    #[inline(always)]
+    fn dexp_inv_gradient(
+        xi: &Tangent<3, S>,
+        mu: &Cotangent<3, S>,
+        eta: &Tangent<3, S>,
+    ) -> Cotangent<3, S> {
+        let (w, mu, eta) = (xi.vec3(), mu.vec3(), eta.vec3());
+        let [factor, slope] = dexp_inv_factor(w.norm_squared());
+        let (both, twice) = (mu.dot(eta), mu.dot(w.cross(w.cross(eta))));
+        let along = slope * twice - factor * both;
+        let products = mu * w.dot(eta) + eta * w.dot(mu);
+        (eta.cross(mu) * S::from_f64(0.5) + products * factor + w * (along + along)).into()
+    }
+
+    /// $\frac{1}{1 + |\xi|^2/4} \left(1 + \frac12 \hat\xi\right)$: the map at $-\xi$.
+    #[inline(always)]
+    fn dcay_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        Self::dcay(&-*xi, &mu.vec3().into()).vec3().into()
+    }
+
+    /// $1 - \frac12 \hat\xi + \frac14 \xi \xi^T$: the map at $-\xi$.
+    #[inline(always)]
+    fn dcay_inv_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        Self::dcay_inv(&-*xi, &mu.vec3().into()).vec3().into()
+    }
+
+    /// $\frac12 \eta \times \mu + \frac14 (\mu (\xi\cdot\eta) + \eta (\xi\cdot\mu))$.
+    #[inline(always)]
+    fn dcay_inv_gradient(
+        xi: &Tangent<3, S>,
+        mu: &Cotangent<3, S>,
+        eta: &Tangent<3, S>,
+    ) -> Cotangent<3, S> {
+        let (w, mu, eta) = (xi.vec3(), mu.vec3(), eta.vec3());
+        let products = mu * w.dot(eta) + eta * w.dot(mu);
+        (eta.cross(mu) * S::from_f64(0.5) + products * S::from_f64(0.25)).into()
+    }
+
+    /// By [the quaternion](Self::to_quaternion), which is accurate at every angle.
+    #[inline(always)]
+    fn sqrt(&self) -> Self {
+        Self::cayley(&self.cayley_of_root().into())
+    }
+
+    #[inline(always)]
+    fn inverse_coadjoint_into(&self, mu: &Cotangent<3, S>, out: &mut Cotangent<3, S>) {
+        *out = self.rotate(mu.vec3()).into();
+    }
+
+    #[inline(always)]
+    fn zero_carry(&self) -> Self {
+        Self::from_matrix_unchecked(Mat3::zero())
+    }
+
+    /// $R + R (F - I)$: the increment is as small as the turn, and so is its rounding.
+    #[inline(always)]
+    fn advance(&mut self, f: &Self, carry: &mut Self) {
+        let increment = self.matrix * f.minus_identity();
+        self.add_compensated(increment, carry);
     }
 
     /// One Newton–Schulz step of the polar decomposition, $R \leftarrow \frac12 R (3 I - R^T R)$.

@@ -18,6 +18,31 @@ pub(crate) fn stumpff<S: Scalar>(x: S) -> [S; 6] {
     core::array::from_fn(|k| S::select(small, near[k], far[k]))
 }
 
+/// $c_7$ and $c_8$ at $x$, from $c_5$ and $c_6$ where the series is not used.
+#[inline(always)]
+pub(crate) fn stumpff_next<S: Scalar>(x: S, [c5, c6]: [S; 2]) -> [S; 2] {
+    let small = x.less(S::from_f64(SERIES_BELOW));
+    let (near, r) = (
+        [sum(x, 7), sum(x, 8)],
+        S::one() / S::select(small, S::one(), x),
+    );
+    let far = [
+        (S::from_f64(1.0 / 120.0) - c5) * r,
+        (S::from_f64(1.0 / 720.0) - c6) * r,
+    ];
+    core::array::from_fn(|k| S::select(small, near[k], far[k]))
+}
+
+/// $g(x) = \frac{1 - \frac\theta2 \cot\frac\theta2}{\theta^2} = \frac{c_3 - 2 c_4}{2 c_2}$ and $g'(x) = \frac{c_5 - 4 c_6}{4 c_2}$.
+///
+/// Where $\mathrm{ad}^3 = -x\, \mathrm{ad}$, $\mathrm d\exp^{-1} = 1 + \frac12 \mathrm{ad} + g(x)\, \mathrm{ad}^2$.
+#[inline(always)]
+pub(crate) fn dexp_inv_factor<S: Scalar>(x: S) -> [S; 2] {
+    let [_, c2, c3, c4, c5, c6] = stumpff(x);
+    let four = S::from_f64(4.0);
+    [(c3 - c4 - c4) / (c2 + c2), (c5 - four * c6) / (four * c2)]
+}
+
 /// The first two alone.
 #[inline(always)]
 pub(crate) fn stumpff2<S: Scalar>(x: S) -> [S; 2] {

@@ -47,6 +47,14 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
         }
     }
 
+    /// $x \leftarrow a x$.
+    #[inline(always)]
+    fn scale(&mut self, a: Self::Scalar) {
+        for i in 0..self.dim() {
+            self.set(i, a * self.get(i));
+        }
+    }
+
     /// $x \leftarrow x + a y$.
     #[inline(always)]
     fn add_scaled(&mut self, a: Self::Scalar, y: &Self) {

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use lie::laws::{self, LawError};
-use lie::{LieGroup, Power, R3, Rn, SE3, SO3, Scalar, Tangent, VectorSpace};
+use lie::{LieGroup, Power, R3, Rn, SE2, SE3, SO2, SO3, Scalar, Tangent, VectorSpace};
 use proptest::prelude::*;
 
 /// Lengths of the example velocities: zero, tiny, generic, and close to a half turn on both sides.
@@ -61,6 +61,8 @@ macro_rules! prove {
 prove! {
     so3: SO3::<S>::identity();
     se3: SE3::<S>::identity();
+    so2: SO2::<S>::identity();
+    se2: SE2::<S>::identity();
     r3: R3::<S>::identity();
     r7: Rn::<7, S>::identity();
     pair: (SO3::<S>::identity(), R3::<S>::identity());
@@ -68,6 +70,8 @@ prove! {
     quadruple: (SE3::<S>::identity(), SO3::<S>::identity(), R3::<S>::identity(), SO3::<S>::identity());
     array: [SE3::<S>::identity(); 3];
     power: Power::new(vec![SO3::<S>::identity(); 4]);
+    planar: (SE2::<S>::identity(), SO2::<S>::identity(), [SO2::<S>::identity(); 2]);
+    chain: (SE2::<S>::identity(), Power::new(vec![SO2::<S>::identity(); 3]));
     paper: (SE3::<S>::identity(), Power::new(vec![SO3::<S>::identity(); 2]));
 }
 

@@ -121,6 +121,14 @@ const COMPOSE_INTO: u8 = 21;
 const COADJOINT_INTO: u8 = 22;
 const EXP_INTO: u8 = 23;
 const CAYLEY_INTO: u8 = 24;
+const ROOT_NOT: u8 = 25;
+const ROOT_FAR: u8 = 26;
+const DUAL_DIFFERENTIAL: u8 = 27;
+const DUAL_INVERSE: u8 = 28;
+const CAYLEY_DUAL_DIFFERENTIAL: u8 = 29;
+const CAYLEY_DUAL_INVERSE: u8 = 30;
+const GRADIENT: u8 = 31;
+const CAYLEY_GRADIENT: u8 = 32;
 /// Mistakes of the algebra from here on, those of the dual from [`DUAL`] on.
 const ALGEBRA: u8 = 40;
 const DUAL: u8 = 60;
@@ -200,18 +208,22 @@ fn long_way<S: Scalar>(xi: &Tangent<6, S>) -> S {
 }
 
 impl<const M: u8, S: Scalar> Slow<M, S> {
+    /// The logarithm of $\exp\xi$ the other way round where $\theta > 1$.
+    fn long_logarithm(xi: Tangent<6, S>) -> Tangent<6, S> {
+        let (w, v) = xi.split();
+        let turned = w * long_way(&xi);
+        let x = SE3::exp(&xi).translation;
+        let straight = SO3::dexp_inv(&(-turned).into(), &x.into());
+        let far = w.norm_squared().magnitude() > 1.0;
+        (turned, if far { straight.vec3() } else { v }).into()
+    }
+
     /// The logarithm of SE(3), with the mistake.
     fn mistaken_log(xi: Tangent<6, S>) -> Tangent<6, S> {
-        let (w, v) = xi.split();
+        let (w, _) = xi.split();
         match M {
             LOG_ZERO_FAR if w.norm_squared().magnitude() > 2.0 => Tangent::zero(),
-            LOG_LONG_WAY => {
-                let turned = w * long_way(&xi);
-                let x = SE3::exp(&xi).translation;
-                let straight = SO3::dexp_inv(&(-turned).into(), &x.into());
-                let far = w.norm_squared().magnitude() > 1.0;
-                (turned, if far { straight.vec3() } else { v }).into()
-            }
+            LOG_LONG_WAY => Self::long_logarithm(xi),
             LOG_INFINITE if w.norm_squared().magnitude() > 1.0 => times(f64::INFINITY, xi),
             _ => xi,
         }
@@ -312,6 +324,52 @@ impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
             DIFFERENTIAL_TWICE => Self::dexp(xi, &Twist(times(2.0, eta.0))),
             _ => Self::dexp(xi, eta),
         }
+    }
+    fn dexp_dual(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
+        Wrench(match M {
+            DUAL_DIFFERENTIAL => SE3::dexp_dual(&-xi.0, &mu.0),
+            _ => SE3::dexp_dual(&xi.0, &mu.0),
+        })
+    }
+    fn dexp_inv_dual(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
+        Wrench(match M {
+            DUAL_INVERSE => SE3::dexp_dual(&xi.0, &mu.0),
+            _ => SE3::dexp_inv_dual(&xi.0, &mu.0),
+        })
+    }
+    fn dexp_inv_gradient(xi: &Twist<M, S>, mu: &Wrench<M, S>, eta: &Twist<M, S>) -> Wrench<M, S> {
+        Wrench(match M {
+            GRADIENT => Cotangent::zero(),
+            _ => SE3::dexp_inv_gradient(&xi.0, &mu.0, &eta.0),
+        })
+    }
+    fn dcay_dual(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
+        Wrench(match M {
+            CAYLEY_DUAL_DIFFERENTIAL => mu.0,
+            _ => SE3::dexp_dual(&xi.0, &mu.0),
+        })
+    }
+    fn dcay_inv_dual(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
+        Wrench(match M {
+            CAYLEY_DUAL_INVERSE => SE3::dcay_inv_dual(&xi.0, &mu.0),
+            _ => SE3::dexp_inv_dual(&xi.0, &mu.0),
+        })
+    }
+    fn dcay_inv_gradient(xi: &Twist<M, S>, mu: &Wrench<M, S>, eta: &Twist<M, S>) -> Wrench<M, S> {
+        Wrench(match M {
+            CAYLEY_GRADIENT => SE3::dcay_inv_gradient(&xi.0, &mu.0, &eta.0),
+            _ => SE3::dexp_inv_gradient(&xi.0, &mu.0, &eta.0),
+        })
+    }
+    fn sqrt(&self) -> Self {
+        Self(match M {
+            ROOT_NOT => self.0,
+            ROOT_FAR => {
+                let log = self.0.log().unwrap_or_else(|e| e.representative);
+                SE3::exp(&times(0.5, Self::long_logarithm(log)))
+            }
+            _ => self.0.sqrt(),
+        })
     }
     fn normalize(&mut self) {
         let (before, mut after) = (self.0, self.0);
@@ -421,6 +479,32 @@ fn mistakes_in_the_maps_are_caught_and_named() {
     assert_eq!(broken_law::<DIFFERENTIAL_TWICE>(), "dcay_0 eta = eta");
     let law = "dcay_xi eta = cay(-xi) d/ds cay(xi + s eta), by duals";
     assert_eq!(broken_law::<DIFFERENTIAL>(), law);
+}
+
+#[test]
+fn mistakes_in_the_square_root_are_caught_and_named() {
+    assert_eq!(broken_law::<ROOT_NOT>(), "sqrt(g) sqrt(g) = g");
+    assert_eq!(broken_law::<ROOT_FAR>(), "log(sqrt g) = log(g)/2");
+}
+
+#[test]
+fn mistakes_in_the_transposed_differentials_are_caught_and_named() {
+    let law = "<(dexp_xi)* mu, eta> = <mu, dexp_xi eta>";
+    assert_eq!(broken_law::<DUAL_DIFFERENTIAL>(), law);
+    let law = "<(dexp^-1_xi)* mu, eta> = <mu, dexp^-1_xi eta>";
+    assert_eq!(broken_law::<DUAL_INVERSE>(), law);
+    let law = "<(dcay_xi)* mu, eta> = <mu, dcay_xi eta>";
+    assert_eq!(broken_law::<CAYLEY_DUAL_DIFFERENTIAL>(), law);
+    let law = "<(dcay^-1_xi)* mu, eta> = <mu, dcay^-1_xi eta>";
+    assert_eq!(broken_law::<CAYLEY_DUAL_INVERSE>(), law);
+}
+
+#[test]
+fn mistakes_in_the_gradients_are_caught_and_named() {
+    let law = "dexp_inv_gradient = d/dxi <mu, dexp^-1_xi eta>, by duals";
+    assert_eq!(broken_law::<GRADIENT>(), law);
+    let law = "dcay_inv_gradient = d/dxi <mu, dcay^-1_xi eta>, by duals";
+    assert_eq!(broken_law::<CAYLEY_GRADIENT>(), law);
 }
 
 #[test]

@@ -123,10 +123,14 @@ where
     c.vectors(formulas.right_inverse, case, (&back, eta), scale)
 }
 
-type JetOf<G> = <<G as LieGroup>::Scalar as Scalar>::Jet;
+pub(super) type JetOf<G> = <<G as LieGroup>::Scalar as Scalar>::Jet;
 
 /// $\xi + s \eta$ with the dual variable $s$ at zero.
-fn line<G>(shape: &G, xi: &G::Algebra, eta: &G::Algebra) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
+pub(super) fn line<G>(
+    shape: &G,
+    xi: &G::Algebra,
+    eta: &G::Algebra,
+) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
 where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
 {
@@ -136,7 +140,7 @@ where
     line
 }
 
-fn constant<G>(shape: &G, xi: &G::Algebra) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
+pub(super) fn constant<G>(shape: &G, xi: &G::Algebra) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
 where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
 {
@@ -151,15 +155,18 @@ where
 }
 
 /// The derivative along $s$.
-fn partial<G: LieGroup>(shape: &G::Algebra, x: &impl VectorSpace<Scalar = JetOf<G>>) -> G::Algebra {
+pub(super) fn partial<G: LieGroup>(
+    shape: &G::Algebra,
+    x: &impl VectorSpace<Scalar = JetOf<G>>,
+) -> G::Algebra {
     filled(shape, |i| x.get(i).partial(0))
 }
 
 /// The step that balances truncation and rounding of central differences.
-fn step<G: LieGroup>() -> f64 {
+pub(super) fn step<G: LieGroup>() -> f64 {
     G::Scalar::EPSILON.cbrt()
 }
 
-fn central<V: VectorSpace>(plus: &V, minus: &V, s: f64) -> V {
+pub(super) fn central<V: VectorSpace>(plus: &V, minus: &V, s: f64) -> V {
     scaled(&sum(plus, &scaled(minus, -1.0)), 0.5 / s)
 }

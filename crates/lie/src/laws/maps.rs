@@ -17,7 +17,8 @@ pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Out
         logarithm_is_shortest::<G>(c, xi)?;
         in_place(c, &G::exp(xi), &G::cayley(xi), xi)?;
     }
-    Ok(())
+    // Only now: it compares logarithms, which are known to be right by the laws before.
+    examples.elements.iter().try_for_each(|g| square_root(c, g))
 }
 
 fn inverses_of_an_element<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
@@ -29,6 +30,18 @@ fn inverses_of_an_element<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
     // Near a half turn the chart's coordinates grow without bound, and their rounding with them.
     let scale = scale * vector_size(&xi);
     c.elements("cay(cay^-1 g) = g", case, (&G::cayley(&xi), g), scale)
+}
+
+fn square_root<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
+    let (case, scale, root) = (|| format!("g = {g:?}"), size(g).powi(2), g.sqrt());
+    let sides = (&root.compose(&root), g);
+    c.elements("sqrt(g) sqrt(g) = g", case, sides, scale)?;
+    let Ok(xi) = g.log() else {
+        return Ok(());
+    };
+    let formula = "log(sqrt g) = log(g)/2";
+    let log = c.exists(formula, case, root.log())?;
+    c.vectors(formula, case, (&log, &scaled(&xi, 0.5)), scale)
 }
 
 fn one_parameter<G: LieGroup>(c: &mut Checker, shape: &G, xi: &G::Algebra) -> Outcome {

@@ -13,6 +13,7 @@
 mod adjoint;
 mod checker;
 mod differentials;
+mod dual_differentials;
 mod examples;
 mod group;
 mod linear;
@@ -88,11 +89,13 @@ pub enum LawError {
 /// - the group axioms, and that an element whose numbers are off by $\delta$ is back on the group to $O(\delta^2)$
 ///   once normalised: a group with redundant numbers, a matrix say, must not leave `normalize` empty;
 /// - $\exp$, $\log$ and the Cayley map: one-parameter subgroups, the inverses, $\log$ the shortest,
-///   $\mathrm{cay}\,\xi = \exp\xi + O(\xi^3)$;
+///   $\mathrm{cay}\,\xi = \exp\xi + O(\xi^3)$, the square root and that it lies halfway;
 /// - $\mathrm{Ad}$ a homomorphism and the derivative of conjugation, $\mathrm{ad}$ its derivative, antisymmetry, the
 ///   Jacobi identity, and the pairings that define $\mathrm{Ad}^\ast$ and $\mathrm{ad}^\ast$;
 /// - left- and right-trivialised differentials of both retractions and their inverses, the identity at zero, against
 ///   dual numbers and against central differences;
+/// - the transposes of these differentials by the pairings that define them, and the gradients of
+///   $\langle\mu, \mathrm d\tau_\xi^{-1} \eta\rangle$ against dual numbers and against central differences;
 /// - the `*_into` forms against the plain ones, into an element or vector that differs.
 ///
 /// Elements are equal where $\log(a^{-1} b) = 0$ and $\mathrm{Ad}\_a = \mathrm{Ad}\_b$ on the basis. Tolerances are a few
@@ -124,6 +127,7 @@ where
     maps::check(&mut checker, &examples)?;
     adjoint::check(&mut checker, &examples)?;
     differentials::check(&mut checker, &examples)?;
+    dual_differentials::check(&mut checker, &examples)?;
     Ok(Report {
         comparisons: checker.comparisons,
         worst: checker.worst,
