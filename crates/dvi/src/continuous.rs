@@ -29,8 +29,43 @@ pub trait ContinuousSystem {
         tau: &mut DualOver<Self::Group, S>,
     );
 
+    /// Whether `tau` is the gradient of a Lagrangian, so that the flow is symplectic; not so with a [force](crate::Forced).
+    fn is_symplectic(&self) -> bool {
+        true
+    }
+
     /// Whether `g` is a configuration of this system; for systems whose size is known at run time.
     fn fits(&self, _g: &Self::Group) -> bool {
         true
+    }
+}
+
+impl<C: ContinuousSystem> ContinuousSystem for &C {
+    type Group = C::Group;
+    type Workspace<S: Scalar> = C::Workspace<S>;
+
+    fn workspace<S: Scalar>(&self, g: &Over<C::Group, S>) -> C::Workspace<S> {
+        C::workspace(self, g)
+    }
+
+    #[inline(always)]
+    fn velocity_and_force<S: Scalar>(
+        &self,
+        t: S,
+        g: &Over<C::Group, S>,
+        mu: &DualOver<C::Group, S>,
+        workspace: &mut C::Workspace<S>,
+        xi: &mut AlgebraOver<C::Group, S>,
+        tau: &mut DualOver<C::Group, S>,
+    ) {
+        C::velocity_and_force(self, t, g, mu, workspace, xi, tau);
+    }
+
+    fn is_symplectic(&self) -> bool {
+        C::is_symplectic(self)
+    }
+
+    fn fits(&self, g: &C::Group) -> bool {
+        C::fits(self, g)
     }
 }

@@ -2,14 +2,15 @@
 
 use lie::Scalar;
 
-/// A square matrix with a right-hand side, solved by Gauss elimination with row pivoting.
+/// A square matrix, factorised by Gauss elimination with row pivoting.
 ///
-/// A singular matrix is not an error here: the solution is then not finite.
+/// A singular matrix is not an error here: a solution is then not finite.
 pub(crate) struct Elimination<S> {
     n: usize,
-    /// Row by row; lost in a solve.
+    /// Row by row: the matrix, then its factors.
     entries: Vec<S>,
-    rhs: Vec<S>,
+    /// The row that elimination took for each column.
+    pivots: Vec<usize>,
 }
 
 impl<S: Scalar> Elimination<S> {
@@ -17,56 +18,50 @@ impl<S: Scalar> Elimination<S> {
         Self {
             n,
             entries: vec![S::zero(); n * n],
-            rhs: vec![S::zero(); n],
+            pivots: vec![0; n],
         }
     }
 
+    /// Sets an entry of the matrix; every one of them before it is factorised again.
     pub(crate) fn set(&mut self, row: usize, column: usize, value: S) {
         self.entries[row * self.n + column] = value;
     }
 
-    pub(crate) fn right_hand_side(&mut self) -> &mut [S] {
-        &mut self.rhs
-    }
-
-    /// Replaces the right-hand side by the solution.
-    pub(crate) fn solve(&mut self) -> &[S] {
-        for k in 0..self.n {
-            self.pivot(k);
-            for row in k + 1..self.n {
-                self.eliminate(row, k);
+    pub(crate) fn factorise(&mut self) {
+        let n = self.n;
+        for k in 0..n {
+            let size = |row: &usize| self.entries[row * n + k].magnitude();
+            let best = (k..n).max_by(|a, b| size(a).total_cmp(&size(b)));
+            let best = best.unwrap_or(k);
+            self.pivots[k] = best;
+            if best != k {
+                (0..n).for_each(|j| self.entries.swap(k * n + j, best * n + j));
+            }
+            for row in k + 1..n {
+                let factor = self.entries[row * n + k] / self.entries[k * n + k];
+                self.entries[row * n + k] = factor;
+                for j in k + 1..n {
+                    let above = self.entries[k * n + j];
+                    self.entries[row * n + j] -= factor * above;
+                }
             }
         }
-        for k in (0..self.n).rev() {
-            let known = (k + 1..self.n).fold(self.rhs[k], |sum, j| {
-                sum - self.entries[k * self.n + j] * self.rhs[j]
-            });
-            self.rhs[k] = known / self.entries[k * self.n + k];
-        }
-        &self.rhs
     }
 
-    /// Brings the row with the largest entry of column `k` to the diagonal.
-    fn pivot(&mut self, k: usize) {
+    /// Replaces `x` by the solution with it as the right-hand side; of a scalar over which the matrix is constant.
+    pub(crate) fn solve<T: Scalar<Real = S>>(&self, x: &mut [T]) {
         let n = self.n;
-        let size = |row: &usize| self.entries[row * n + k].magnitude();
-        let best = (k..n).max_by(|a, b| size(a).total_cmp(&size(b)));
-        let best = best.unwrap_or(k);
-        if best != k {
-            (0..n).for_each(|j| self.entries.swap(k * n + j, best * n + j));
-            self.rhs.swap(k, best);
+        let entry = |i: usize, j: usize| T::from_real(self.entries[i * n + j]);
+        for k in 0..n {
+            x.swap(k, self.pivots[k]);
         }
-    }
-
-    fn eliminate(&mut self, row: usize, k: usize) {
-        let n = self.n;
-        let factor = self.entries[row * n + k] / self.entries[k * n + k];
-        for j in k + 1..n {
-            let above = self.entries[k * n + j];
-            self.entries[row * n + j] -= factor * above;
+        for i in 0..n {
+            x[i] = (0..i).fold(x[i], |sum, j| sum - entry(i, j) * x[j]);
         }
-        let above = self.rhs[k];
-        self.rhs[row] -= factor * above;
+        for i in (0..n).rev() {
+            let known = (i + 1..n).fold(x[i], |sum, j| sum - entry(i, j) * x[j]);
+            x[i] = known / entry(i, i);
+        }
     }
 }
 
@@ -77,21 +72,19 @@ mod tests {
     #[test]
     fn solves_what_needs_pivoting_and_is_not_finite_on_the_singular() {
         let mut system = Elimination::new(3);
-        let fill = |system: &mut Elimination<f64>, rows: [[f64; 3]; 3]| {
+        let mut solve = |rows: [[f64; 3]; 3]| {
             for (i, row) in rows.iter().enumerate() {
                 (0..3).for_each(|j| system.set(i, j, row[j]));
             }
-            system.right_hand_side().copy_from_slice(&[7.0, 1.0, 15.0]);
+            let mut x = [7.0_f64, 1.0, 15.0];
+            system.factorise();
+            system.solve(&mut x);
+            x
         };
-        fill(
-            &mut system,
-            [[0.0, 2.0, 1.0], [1.0, 0.0, 0.0], [3.0, 0.0, 4.0]],
-        );
-        assert_eq!(system.solve(), [1.0, 2.0, 3.0]);
-        fill(
-            &mut system,
-            [[0.0, 2.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 4.0]],
-        );
-        assert!(system.solve().iter().any(|x| !x.is_finite()));
+        let x = solve([[0.0, 2.0, 1.0], [1.0, 0.0, 0.0], [3.0, 0.0, 4.0]]);
+        let expected = [1.0, 2.0, 3.0];
+        assert!(x.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15));
+        let x = solve([[0.0, 2.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 4.0]]);
+        assert!(x.iter().any(|x| !x.is_finite()));
     }
 }

@@ -220,6 +220,10 @@ where
         tau.add_scaled(S::one(), &self.force.force(t, g, xi));
     }
 
+    fn is_symplectic(&self) -> bool {
+        false
+    }
+
     fn fits(&self, g: &L::Group) -> bool {
         self.system.fits(g)
     }

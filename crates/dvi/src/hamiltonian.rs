@@ -42,42 +42,102 @@ pub struct HamiltonianSystem<L>(pub L);
 pub struct LegendreWorkspace<L: Lagrangian, S: Scalar> {
     lifted: Lifted<L::Group, S>,
     moved: AlgebraOver<L::Group, S::Jet>,
+    rhs: Vec<S>,
+    gradient: DualOver<L::Group, S>,
+    newton: RealNewton<L, S::Real>,
+}
+
+impl<L: Lagrangian, S: Scalar> LegendreWorkspace<L, S> {
+    fn new(g: &Over<L::Group, S>) -> Self {
+        let lifted = Lifted::new(g);
+        Self {
+            moved: lifted.zero_algebra(),
+            rhs: vec![S::zero(); g.zero_dual().dim()],
+            gradient: g.zero_dual(),
+            newton: RealNewton::new(&L::Group::convert::<S, S::Real>(g, S::real)),
+            lifted,
+        }
+    }
+
+    /// Fills the gradient $\mathbf D_\xi L$.
+    fn differentiate(&mut self, lagrangian: &L, t: S, xi: &AlgebraOver<L::Group, S>) {
+        let t = S::Jet::constant(t);
+        for_each_chunk(xi.dim(), |first| {
+            lie::seed(&mut self.moved, first);
+            add_constant(&mut self.moved, xi);
+            let value = lagrangian.value_at(t, self.lifted.g(), &self.moved);
+            read_partials(&mut self.gradient, first, value);
+        });
+    }
+}
+
+/// The inverse Legendre transform without derivatives: Newton's method with the Hessian $\mathbf D_\xi^2 L$.
+struct RealNewton<L: Lagrangian, S: Scalar> {
+    g: Over<L::Group, S>,
     twice: Over<L::Group, Twice<S>>,
-    moved_twice: AlgebraOver<L::Group, Twice<S>>,
+    moved: AlgebraOver<L::Group, Twice<S>>,
     gradient: DualOver<L::Group, S>,
     hessian: Elimination<S>,
+    xi: AlgebraOver<L::Group, S>,
+    rhs: Vec<S>,
 }
 
 /// Duals of duals: second derivatives.
 type Twice<S> = <<S as Scalar>::Jet as Scalar>::Jet;
 
-impl<L: Lagrangian, S: Scalar> LegendreWorkspace<L, S> {
+fn twice<S: Scalar>(x: S) -> Twice<S> {
+    Twice::<S>::constant(Jet::constant(x))
+}
+
+impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
     fn new(g: &Over<L::Group, S>) -> Self {
-        let lifted = Lifted::new(g);
-        let constant = |x: S| Twice::<S>::constant(Jet::constant(x));
-        let twice = L::Group::convert::<S, Twice<S>>(g, constant);
+        let lifted = L::Group::convert::<S, Twice<S>>(g, twice);
+        let dim = g.zero_dual().dim();
         Self {
             moved: lifted.zero_algebra(),
-            moved_twice: twice.zero_algebra(),
+            twice: lifted,
             gradient: g.zero_dual(),
-            hessian: Elimination::new(g.zero_dual().dim()),
-            lifted,
-            twice,
+            hessian: Elimination::new(dim),
+            xi: g.zero_algebra(),
+            rhs: vec![S::zero(); dim],
+            g: g.clone(),
         }
     }
 
-    /// Fills the gradient $\mathbf D_\xi L$ and the Hessian $\mathbf D_\xi^2 L$.
-    fn differentiate(&mut self, lagrangian: &L, t: S, xi: &AlgebraOver<L::Group, S>) {
-        let t = Twice::<S>::constant(Jet::constant(t));
-        let dim = xi.dim();
+    /// Fills `xi` and factorises the Hessian there; false where the iteration does not converge.
+    fn invert(&mut self, lagrangian: &L, t: S, mu: impl Fn(usize) -> S) -> bool {
+        L::Group::convert_into::<S, Twice<S>>(&self.g, twice, &mut self.twice);
+        self.xi.set_zero();
+        for _ in 0..MAX_ITERATIONS {
+            self.differentiate(lagrangian, t);
+            for (i, entry) in self.rhs.iter_mut().enumerate() {
+                *entry = mu(i) - self.gradient.get(i);
+            }
+            self.hessian.factorise();
+            self.hessian.solve(&mut self.rhs);
+            let (mut correction, mut size) = (0.0_f64, 0.0_f64);
+            for (i, delta) in self.rhs.iter().enumerate() {
+                self.xi.set(i, self.xi.get(i) + *delta);
+                correction = correction.max(delta.magnitude());
+                size = size.max(self.xi.get(i).magnitude());
+            }
+            if correction <= CONVERGED * size {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Fills the gradient and the Hessian at `xi`.
+    fn differentiate(&mut self, lagrangian: &L, t: S) {
+        let (t, dim) = (twice(t), self.xi.dim());
         for_each_chunk(dim, |column| {
             for_each_chunk(dim, |row| {
                 for i in 0..dim {
-                    let inner = seeded::<S::Jet>(xi.get(i), i, row);
-                    self.moved_twice
-                        .set(i, seeded::<Twice<S>>(inner, i, column));
+                    let inner = seeded::<S::Jet>(self.xi.get(i), i, row);
+                    self.moved.set(i, seeded::<Twice<S>>(inner, i, column));
                 }
-                let value = lagrangian.value_at(t, &self.twice, &self.moved_twice);
+                let value = lagrangian.value_at(t, &self.twice, &self.moved);
                 read_partials(&mut self.gradient, row, value.value());
                 let end = |first: usize| dim.min(first + lie::JET_DIRECTIONS);
                 for j in column..end(column) {
@@ -114,7 +174,7 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
         self.0.energy(state.t, &state.g, &xi)
     }
 
-    /// The inverse Legendre transform, by Newton's method from $\xi = 0$.
+    /// The inverse Legendre transform; the derivatives that a dual number carries follow with the Hessian kept, a level each time.
     fn invert<S: Scalar>(
         &self,
         t: S,
@@ -123,30 +183,23 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
         work: &mut LegendreWorkspace<L, S>,
         xi: &mut AlgebraOver<L::Group, S>,
     ) {
-        let constant = |x: S| Twice::<S>::constant(Jet::constant(x));
-        L::Group::convert_into::<S, Twice<S>>(g, constant, &mut work.twice);
-        xi.set_zero();
-        // Derivatives follow the value by one iteration for every doubling of their order.
-        let mut more = S::DUAL_LEVELS.checked_ilog2().map_or(0, |log| log + 1);
-        for _ in 0..MAX_ITERATIONS {
+        work.lifted.set_g(g);
+        L::Group::convert_into::<S, S::Real>(g, S::real, &mut work.newton.g);
+        let solved = work.newton.invert(&self.0, t.real(), |i| mu.get(i).real());
+        for i in 0..xi.dim() {
+            let real = S::from_real(work.newton.xi.get(i));
+            xi.set(i, if solved { real } else { S::from_f64(f64::NAN) });
+        }
+        for _ in 0..S::DUAL_LEVELS {
             work.differentiate(&self.0, t, xi);
-            for i in 0..mu.dim() {
-                work.hessian.right_hand_side()[i] = mu.get(i) - work.gradient.get(i);
+            for (i, entry) in work.rhs.iter_mut().enumerate() {
+                *entry = mu.get(i) - work.gradient.get(i);
             }
-            let (mut correction, mut size) = (0.0_f64, 0.0_f64);
-            for (i, delta) in work.hessian.solve().iter().enumerate() {
+            work.newton.hessian.solve(&mut work.rhs);
+            for (i, delta) in work.rhs.iter().enumerate() {
                 xi.set(i, xi.get(i) + *delta);
-                correction = correction.max(delta.magnitude());
-                size = size.max(xi.get(i).magnitude());
-            }
-            if correction <= CONVERGED * size {
-                if more == 0 {
-                    return;
-                }
-                more -= 1;
             }
         }
-        (0..xi.dim()).for_each(|i| xi.set(i, S::from_f64(f64::NAN)));
     }
 }
 
@@ -171,7 +224,6 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
         let t = S::Jet::constant(t);
         work.moved.set_zero();
         add_constant(&mut work.moved, xi);
-        work.lifted.set_g(g);
         for_each_chunk(tau.dim(), |first| {
             let g = work.lifted.moved_g(first);
             read_partials(tau, first, self.0.value_at(t, g, &work.moved));

@@ -106,15 +106,8 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
             Some(exact) if self.takes_exact => exact.solve(lagrangian, residual, delta),
             _ => {
                 lagrangian.solve(&self.factor, residual, delta);
-                scale(delta, self.h);
+                delta.scale(self.h);
             }
         }
-    }
-}
-
-#[inline(always)]
-fn scale<V: VectorSpace<Scalar = f64>>(x: &mut V, a: f64) {
-    for i in 0..x.dim() {
-        x.set(i, a * x.get(i));
     }
 }

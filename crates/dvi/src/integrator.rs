@@ -26,6 +26,23 @@ pub trait Integrator {
     /// # Errors
     /// [`StepError`], and the state is as it was.
     fn step(&mut self, state: &mut State<Self::Group>, h: f64) -> Result<StepReport, StepError>;
+
+    /// The state `h` seconds after `state`, at the method's order, without taking the step: for output between steps and for events.
+    ///
+    /// It is a step of its own from the same state, usually a shorter one; an interpolant through the stages is of half the order.
+    /// The steps that follow are as without it, but for their first guess.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    fn peek(
+        &mut self,
+        state: &State<Self::Group>,
+        h: f64,
+    ) -> Result<State<Self::Group>, StepError> {
+        let mut ahead = state.clone();
+        self.step(&mut ahead, h)?;
+        Ok(ahead)
+    }
 }
 
 /// What a step cost and how well it was solved.
@@ -61,6 +78,14 @@ macro_rules! forward {
                 h: f64,
             ) -> Result<StepReport, StepError> {
                 (**self).step(state, h)
+            }
+
+            fn peek(
+                &mut self,
+                state: &State<I::Group>,
+                h: f64,
+            ) -> Result<State<I::Group>, StepError> {
+                (**self).peek(state, h)
             }
         }
     };

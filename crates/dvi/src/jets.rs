@@ -58,6 +58,10 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
         }
     }
 
+    pub(crate) fn g(&self) -> &Moved<G, S> {
+        &self.g
+    }
+
     pub(crate) fn zero_algebra(&self) -> AlgebraOver<G, S::Jet> {
         self.g.zero_algebra()
     }

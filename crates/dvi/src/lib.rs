@@ -26,11 +26,13 @@
 //! even at a loose tolerance, and say nothing about whether the step was solved. The [`StepReport`]'s residual does.
 
 mod balance;
+mod composition;
 mod continuous;
 mod discrete;
 mod elimination;
 mod error;
 mod force;
+mod gauss;
 mod hamiltonian;
 mod inertia;
 mod integrator;
@@ -48,10 +50,12 @@ mod variation;
 mod variational;
 mod warm_start;
 
+pub use composition::{Adjoint, Composition};
 pub use continuous::ContinuousSystem;
 pub use discrete::{Derivatives, DiscreteLagrangian};
 pub use error::{Hint, StepError};
 pub use force::{DiscreteForce, Force, Forced};
+pub use gauss::Gauss;
 pub use hamiltonian::{HamiltonianSystem, LegendreWorkspace};
 pub use inertia::{FrozenInertia, Inertia};
 pub use integrator::{Integrator, StepReport};

@@ -12,14 +12,18 @@ use crate::{DiscreteLagrangian, State};
 
 type J = <f64 as Scalar>::Jet;
 
-/// Simplified Newton: the exact matrix of the momentum balance by dual numbers, kept until convergence slows.
+/// Simplified Newton: the exact matrix of the momentum balance by dual numbers, kept until convergence slows; for a step
+/// of another size in proportion to $1/h$.
 ///
 /// Needs nothing but the discrete Lagrangian's value. The solve is dense, of the size of the group's dimension.
 pub struct Newton<G: RealGroup> {
     matrix: Factorisation,
     cyclic: Option<Factorisation>,
     known: bool,
+    /// The step size of the matrix, which goes as its inverse.
     h: f64,
+    /// The step size now, over that of the matrix.
+    scale: f64,
     balance: Balance<G, J>,
     g: Over<G, J>,
     mu: DualOver<G, J>,
@@ -36,7 +40,8 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
             matrix: Factorisation::new(dim),
             cyclic: (!cyclic.is_empty()).then(|| Factorisation::new(cyclic.len())),
             known: false,
-            h: 0.0,
+            h: 1.0,
+            scale: 1.0,
             balance: Balance::new(&g),
             mu: g.zero_dual(),
             c: g.zero_algebra(),
@@ -45,8 +50,7 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
     }
 
     fn begin(&mut self, _: &L, _: &State<L::Group>, h: f64) {
-        self.known &= h == self.h;
-        self.h = h;
+        self.scale = h / self.h;
     }
 
     fn forget(&mut self) {
@@ -64,6 +68,7 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
         h: f64,
         c: &Algebra<L>,
     ) {
+        (self.h, self.scale) = (h, 1.0);
         let State { t, g, mu } = state;
         let (t, h) = (J::constant(*t), J::constant(h));
         <L::Group as LieGroup>::convert_into::<f64, J>(g, J::constant, &mut self.g);
@@ -92,6 +97,7 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
     fn solve(&mut self, _: &L, residual: &Dual<L>, delta: &mut Algebra<L>) {
         residual.write(self.matrix.right_hand_side());
         delta.read(self.matrix.solve());
+        delta.scale(self.scale);
     }
 
     fn solve_cyclic(
@@ -112,6 +118,7 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
         cyclic
             .zip(block.solve())
             .for_each(|(i, x)| delta.set(i, *x));
+        delta.scale(self.scale);
         true
     }
 }

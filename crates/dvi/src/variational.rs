@@ -445,6 +445,16 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
         self.advance(state, h)?;
         Ok(report)
     }
+
+    fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
+        self.solve(state, h)?;
+        let balance = &self.work(&state.g).balance;
+        Ok(State {
+            t: state.t + h,
+            g: state.g.compose(&balance.f),
+            mu: balance.transported.clone(),
+        })
+    }
 }
 
 impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> FirstVariation

@@ -1,0 +1,280 @@
+//! Variational Gauss integrators of order `2 S` on a Lie group.
+
+mod newton;
+mod predictor;
+mod solve;
+mod sweep;
+mod tableau;
+mod update;
+
+use core::marker::PhantomData;
+
+use lie::{Cayley, LieGroup, Retraction, VectorSpace};
+
+use crate::{
+    ContinuousSystem, FirstVariation, Integrator, State, StepError, StepReport, Variation,
+};
+use newton::SweepNewton;
+use predictor::Predictor;
+use solve::Failure;
+use sweep::Sweep;
+use tableau::Tableau;
+use update::Update;
+
+/// A variational integrator of order `2 S` by Gauss collocation with `S` stages, `S` from 1 to 8.
+///
+/// It is the extremum of the discrete Lagrangian
+/// $L_d(g_k, f) = \operatorname{ext} h \sum_i b_i L(t_i, g_k \tau(c_i), \mathrm d\tau_{c_i} \dot c_i)$ over the rates $\dot c_i$ with
+/// $c_i = h \sum_j a_{ij} \dot c_j$ and $f = \tau(h \sum_j b_j \dot c_j)$: symplectic, and with the momentum maps of its symmetries, by
+/// construction. In the Hamiltonian form that it is solved in, with velocities $\xi_i$ and forces $\tau_i$ of the
+/// [`ContinuousSystem`] at $(g_i, \mu_i)$:
+///
+/// $$ P = \mu_k + h \sum_i b_i \mathrm{Ad}^\ast_{f_i^{-1}} \tau_i, \qquad \mu_{k+1} = \mathrm{Ad}^\ast_f P, \qquad \pi_1 = (\mathrm d\tau_{c_1})^\ast \mu_{k+1}, $$
+/// $$ \pi_i = \pi_1 - h \sum_j (b_j - a_{ij}) \dot\pi_j, \qquad \mu_i = (\mathrm d\tau_{c_i}^{-1})^\ast \pi_i, $$
+/// $$ \dot c_i = \mathrm d\tau_{c_i}^{-1} \xi_i, \qquad \dot\pi_i = (\mathrm d\tau_{c_i})^\ast \tau_i - \partial_c \langle \pi_i, \mathrm d\tau_c^{-1} \xi_i \rangle. $$
+///
+/// The chart is centred anew at every $g_k$. That $P$, and not $\mu_k$, goes with it is what keeps the symplectic form: the
+/// base point moves with the state, and its derivative is part of the balance.
+///
+/// The stages are iterated to rounding, unless a [tolerance](Self::with_tolerance) is set: all of them in one sweep, starting from the velocities and forces of
+/// the step before. A step too long for that is solved by Newton's method. Momenta are summed in the frame of the
+/// identity with compensation, and so are the numbers of the configuration. After the first step none allocates, but for the first that needs Newton's method.
+///
+/// ```
+/// use dvi::{Gauss, Integrator, Lagrangian};
+/// use lie::{Rn, Scalar, Tangent};
+///
+/// /// A particle of 1 kg on a spring of 1 N/m.
+/// struct Spring;
+///
+/// impl Lagrangian for Spring {
+///     type Group = Rn<1>;
+///     fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+///         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
+///     }
+/// }
+///
+/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]));
+/// let mut integrator = Gauss::<_, 4>::new(Spring.hamiltonian());
+/// assert_eq!(integrator.order(), 8);
+/// for _ in 0..10 {
+///     integrator.step(&mut state, 0.5)?;
+/// }
+/// assert!((state.g.0[0] - 5.0_f64.cos()).abs() < 1e-8);
+/// # Ok::<(), dvi::StepError>(())
+/// ```
+pub struct Gauss<C: ContinuousSystem, const S: usize, R = Cayley> {
+    system: C,
+    tableau: Tableau,
+    tolerance: f64,
+    steps: u64,
+    work: Option<Box<Work<C>>>,
+    retraction: PhantomData<R>,
+}
+
+/// Storage of the steps.
+struct Work<C: ContinuousSystem> {
+    sweep: Sweep<C, f64>,
+    last: solve::Last<C::Group>,
+    predictor: Predictor<C::Group>,
+    update: Update<C::Group>,
+    /// Made when first needed.
+    newton: Option<SweepNewton<C>>,
+    linearised: Option<SweepNewton<C>>,
+    /// Steps to solve by Newton's method before the plain iteration is tried again.
+    long_steps: u32,
+    shape: C::Group,
+}
+
+impl<C: ContinuousSystem> Work<C> {
+    fn new(system: &C, stages: usize, g: &C::Group) -> Self {
+        Self {
+            sweep: Sweep::new(system, stages, g),
+            last: solve::Last::new(stages, g),
+            predictor: Predictor::new(stages, g),
+            update: Update::new(g),
+            newton: None,
+            linearised: None,
+            long_steps: 0,
+            shape: g.clone(),
+        }
+    }
+}
+
+impl<C: ContinuousSystem, const S: usize> Gauss<C, S> {
+    /// The integrator of a system, in the Cayley map's chart; for a Lagrangian, `Gauss::<_, 4>::new(top.hamiltonian())`.
+    pub fn new(system: C) -> Self {
+        const { assert!(S >= 1 && S <= 8, "Gauss has from 1 to 8 stages") };
+        Self {
+            system,
+            tableau: Tableau::gauss(S),
+            tolerance: 0.0,
+            steps: 0,
+            work: None,
+            retraction: PhantomData,
+        }
+    }
+}
+
+impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
+    /// The same in another retraction's chart: another method of the same order.
+    pub fn with_retraction<Q: Retraction>(self) -> Gauss<C, S, Q> {
+        Gauss {
+            system: self.system,
+            tableau: self.tableau,
+            tolerance: self.tolerance,
+            steps: self.steps,
+            work: None,
+            retraction: PhantomData,
+        }
+    }
+
+    /// The largest error of a solved step that is left by iterating, estimated and relative; zero, the default, iterates to rounding.
+    ///
+    /// Momentum maps do not feel it; energy does, where it is looser than the method's own error of a step.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// The system.
+    pub fn system(&self) -> &C {
+        &self.system
+    }
+
+    fn check(&self, state: &State<C::Group>, h: f64) -> Result<(), StepError> {
+        let (step, t) = (self.steps, state.t);
+        if !(h.is_finite() && h != 0.0) {
+            return Err(StepError::InvalidStep { step, t, h });
+        }
+        if !self.system.fits(&state.g) {
+            return Err(StepError::Misfit { step, t });
+        }
+        let dual = state.g.zero_dual();
+        if !dual.same_shape(&state.mu) {
+            let (expected, found) = (dual.dim(), state.mu.dim());
+            return Err(StepError::Shape {
+                step,
+                t,
+                expected,
+                found,
+            });
+        }
+        let finite = t.is_finite() && state.g.is_finite() && state.mu.max_magnitude().is_finite();
+        finite
+            .then_some(())
+            .ok_or(StepError::NotFinite { step, t, h })
+    }
+
+    /// Solves the stages of a step; the state stays as it is.
+    fn solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, StepError> {
+        self.check(state, h)?;
+        let (system, tableau) = (&self.system, &self.tableau);
+        let fits = |work: &Box<Work<C>>| work.shape.same_shape(&state.g);
+        let work = self.work.take().filter(fits);
+        let work = self
+            .work
+            .insert(work.unwrap_or_else(|| Box::new(Work::new(system, S, &state.g))));
+        let solved = work.solve::<R>((system, tableau), (state, h), self.tolerance);
+        solved.map_err(|failure| match failure {
+            Failure::NotFinite => StepError::NotFinite {
+                step: self.steps,
+                t: state.t,
+                h,
+            },
+            Failure::NotConverged(report, hint) => StepError::NotConverged {
+                step: self.steps,
+                t: state.t,
+                h,
+                residual: report.residual,
+                iterations: report.iterations,
+                hint,
+            },
+        })
+    }
+
+    /// Takes the step that was solved.
+    fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Result<(), StepError> {
+        let (step, t) = (self.steps, state.t);
+        let refused = StepError::NotFinite { step, t, h };
+        let Some(work) = &mut self.work else {
+            return Err(refused);
+        };
+        let Work {
+            sweep,
+            update,
+            predictor,
+            ..
+        } = &mut **work;
+        let next = update.advance(state, h, &sweep.f, &sweep.impulse);
+        state.clone_from(next.ok_or(refused)?);
+        predictor.record(h, sweep);
+        self.steps += 1;
+        Ok(())
+    }
+}
+
+impl<C: ContinuousSystem, const S: usize, R: Retraction> Integrator for Gauss<C, S, R> {
+    type Group = C::Group;
+
+    fn order(&self) -> u32 {
+        2 * S as u32
+    }
+
+    /// The chart is centred at the step's start: the same step backwards is another of the same order.
+    fn is_symmetric(&self) -> bool {
+        false
+    }
+
+    fn is_symplectic(&self) -> bool {
+        self.system.is_symplectic()
+    }
+
+    fn step(&mut self, state: &mut State<C::Group>, h: f64) -> Result<StepReport, StepError> {
+        let report = self.solve(state, h)?;
+        self.accept(state, h)?;
+        Ok(report)
+    }
+
+    fn peek(&mut self, state: &State<C::Group>, h: f64) -> Result<State<C::Group>, StepError> {
+        self.solve(state, h)?;
+        let mut ahead = state.clone();
+        ahead.t += h;
+        if let Some(work) = &self.work {
+            ahead.g = state.g.compose(&work.sweep.f);
+            ahead.mu.clone_from(&work.sweep.mu);
+        }
+        Ok(ahead)
+    }
+}
+
+impl<C: ContinuousSystem, const S: usize, R: Retraction> FirstVariation for Gauss<C, S, R> {
+    fn step_varied(
+        &mut self,
+        state: &mut State<C::Group>,
+        variations: &mut [Variation<C::Group>],
+        h: f64,
+    ) -> Result<StepReport, StepError> {
+        let report = self.solve(state, h)?;
+        let mut carried = variations.to_vec();
+        let (system, tableau) = (&self.system, &self.tableau);
+        if let Some(work) = &mut self.work {
+            let Work {
+                sweep, linearised, ..
+            } = &mut **work;
+            let linearised =
+                linearised.get_or_insert_with(|| SweepNewton::new(system, S, &state.g));
+            let mut x = core::mem::take(&mut linearised.x);
+            newton::write(sweep, &mut x);
+            linearised.carry::<R>((system, tableau), (state, h), &x, &mut carried);
+            linearised.x = x;
+        }
+        if !carried.iter().all(Variation::is_finite) {
+            let (step, t) = (self.steps, state.t);
+            return Err(StepError::NotFinite { step, t, h });
+        }
+        self.accept(state, h)?;
+        variations.clone_from_slice(&carried);
+        Ok(report)
+    }
+}

@@ -1,0 +1,197 @@
+//! Newton's method on the sweep, for steps too long for its iteration; and the derivative of a solved step.
+
+use lie::{Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
+
+use super::sweep::Sweep;
+use super::tableau::Tableau;
+use crate::jets::add_constant;
+use crate::linear::Factorisation;
+use crate::{ContinuousSystem, State, Variation};
+
+type J = <f64 as Scalar>::Jet;
+
+/// The unknowns of a step, $X = (\dot c_1, \dot\pi_1, \dots, \dot c_s, \dot\pi_s, P)$, as the fixed point of the sweep:
+/// $X = \Phi(X; g, \mu)$. Holds $1 - \Phi'$, from dual numbers.
+pub(super) struct SweepNewton<C: ContinuousSystem> {
+    matrix: Factorisation,
+    /// The iterate.
+    pub(super) x: Vec<f64>,
+    /// $X - \Phi(X)$, then the correction.
+    pub(super) correction: Vec<f64>,
+    sweep: Sweep<C, J>,
+    unknowns: Vec<J>,
+    g: Over<C::Group, J>,
+    mu: DualOver<C::Group, J>,
+}
+
+/// Writes the rates and the momentum of a sweep.
+pub(super) fn write<C: ContinuousSystem, S: Scalar>(sweep: &Sweep<C, S>, out: &mut [S]) {
+    let mut rest = out;
+    for stage in &sweep.stages {
+        stage.c_dot.write(rest);
+        rest = &mut rest[stage.c_dot.dim()..];
+        stage.pi_dot.write(rest);
+        rest = &mut rest[stage.pi_dot.dim()..];
+    }
+    sweep.momentum.write(rest);
+}
+
+/// Reads them back.
+pub(super) fn read<C: ContinuousSystem, S: Scalar>(sweep: &mut Sweep<C, S>, from: &[S]) {
+    let mut rest = from;
+    for stage in &mut sweep.stages {
+        stage.c_dot.read(rest);
+        rest = &rest[stage.c_dot.dim()..];
+        stage.pi_dot.read(rest);
+        rest = &rest[stage.pi_dot.dim()..];
+    }
+    sweep.momentum.read(rest);
+}
+
+impl<C: ContinuousSystem> SweepNewton<C> {
+    pub(super) fn new(system: &C, stages: usize, g: &C::Group) -> Self {
+        let dim = g.zero_dual().dim() * (2 * stages + 1);
+        let lifted = g.lift::<J>();
+        Self {
+            matrix: Factorisation::new(dim),
+            x: vec![0.0; dim],
+            correction: vec![0.0; dim],
+            sweep: Sweep::new(system, stages, &lifted),
+            unknowns: vec![J::constant(0.0); dim],
+            mu: lifted.zero_dual(),
+            g: lifted,
+        }
+    }
+
+    /// Factorises $1 - \Phi'$ at `x`.
+    pub(super) fn renew<R: Retraction>(
+        &mut self,
+        (system, tableau): (&C, &Tableau),
+        state: &State<C::Group>,
+        h: f64,
+        x: &[f64],
+    ) {
+        self.set_state(state);
+        for first in (0..x.len()).step_by(lie::JET_DIRECTIONS) {
+            for (i, (unknown, x)) in self.unknowns.iter_mut().zip(x).enumerate() {
+                *unknown = match i.checked_sub(first) {
+                    Some(d) if d < lie::JET_DIRECTIONS => J::variable(*x, d),
+                    _ => J::constant(*x),
+                };
+            }
+            self.map::<R>((system, tableau), state.t, h);
+            let last = x.len().min(first + lie::JET_DIRECTIONS);
+            for column in first..last {
+                for (row, image) in self.unknowns.iter().enumerate() {
+                    let unit = f64::from(u8::from(row == column));
+                    let slope = image.partial(column - first);
+                    self.matrix.set(row, column, unit - slope);
+                }
+            }
+        }
+        self.matrix.factorise();
+    }
+
+    fn set_state(&mut self, state: &State<C::Group>) {
+        C::Group::convert_into::<f64, J>(&state.g, J::constant, &mut self.g);
+        self.mu.set_zero();
+        add_constant(&mut self.mu, &state.mu);
+    }
+
+    /// $\Phi$ on the unknowns.
+    fn map<R: Retraction>(&mut self, (system, tableau): (&C, &Tableau), t: f64, h: f64) {
+        let (t, h) = (J::constant(t), J::constant(h));
+        read(&mut self.sweep, &self.unknowns);
+        self.sweep.place::<R>(tableau, h);
+        self.sweep.evaluate::<R>(system, tableau, (t, h), &self.g);
+        self.sweep.gather(tableau, &self.mu, h);
+        write(&self.sweep, &mut self.unknowns);
+    }
+
+    /// Solves $(1 - \Phi') \delta = $ `correction`, in place.
+    pub(super) fn solve(&mut self) {
+        self.matrix
+            .right_hand_side()
+            .copy_from_slice(&self.correction);
+        self.correction.copy_from_slice(self.matrix.solve());
+    }
+
+    /// Carries variations of `state` over a solved step, whose solution is `x` and displacement `f`, by the implicit-function rule.
+    pub(super) fn carry<R: Retraction>(
+        &mut self,
+        (system, tableau): (&C, &Tableau),
+        (state, h): (&State<C::Group>, f64),
+        x: &[f64],
+        variations: &mut [Variation<C::Group>],
+    ) {
+        self.renew::<R>((system, tableau), state, h, x);
+        let mut turn = self.g.clone();
+        for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
+            self.seed(state, h, chunk, &mut turn);
+            for (unknown, x) in self.unknowns.iter_mut().zip(x) {
+                *unknown = J::constant(*x);
+            }
+            self.map::<R>((system, tableau), state.t, h);
+            let images = self.unknowns.clone();
+            for (unknown, x) in self.unknowns.iter_mut().zip(x) {
+                *unknown = J::constant(*x);
+            }
+            for direction in 0..chunk.len() {
+                for (entry, image) in self.correction.iter_mut().zip(&images) {
+                    *entry = image.partial(direction);
+                }
+                self.solve();
+                for (unknown, slope) in self.unknowns.iter_mut().zip(&self.correction) {
+                    *unknown += J::variable(0.0, direction) * J::constant(*slope);
+                }
+            }
+            read(&mut self.sweep, &self.unknowns);
+            self.sweep.end::<R>(tableau, J::constant(h));
+            leave(&self.sweep, &turn, h, chunk);
+        }
+    }
+
+    /// $g \exp(\eta)$ and $\mu + \delta\mu + \frac h2 \delta F$, a direction for each variation; $\exp(\eta)$ into `turn`.
+    fn seed(
+        &mut self,
+        state: &State<C::Group>,
+        h: f64,
+        chunk: &[Variation<C::Group>],
+        turn: &mut Over<C::Group, J>,
+    ) {
+        let mut eta = self.g.zero_algebra();
+        for i in 0..eta.dim() {
+            let terms = chunk.iter().enumerate();
+            let (a, b) = terms.fold((J::constant(0.0), J::constant(0.0)), |(a, b), (d, v)| {
+                let along = |x: f64| J::variable(0.0, d) * J::constant(x);
+                let change = v.mu.get(i) + 0.5 * h * v.force.get(i);
+                (a + along(v.eta.get(i)), b + along(change))
+            });
+            eta.set(i, a);
+            self.mu.set(i, J::constant(state.mu.get(i)) + b);
+        }
+        Cayley::retract_into::<Over<C::Group, J>>(&eta, turn);
+        self.g = state.g.lift::<J>().compose(turn);
+    }
+}
+
+/// The variations at the end: of $g f$ by $f^{-1} \exp(\eta) f$, and of the momentum.
+fn leave<C: ContinuousSystem>(
+    sweep: &Sweep<C, J>,
+    turn: &Over<C::Group, J>,
+    h: f64,
+    chunk: &mut [Variation<C::Group>],
+) {
+    let still = C::Group::convert::<J, f64>(&sweep.f, Jet::value).lift::<J>();
+    let end = still.inverse().compose(&turn.compose(&sweep.f));
+    let eta = end.cayley_inverse().ok();
+    for (direction, variation) in chunk.iter_mut().enumerate() {
+        for i in 0..variation.eta.dim() {
+            let slope = |x: J| x.partial(direction);
+            let rate = eta.as_ref().map_or(f64::NAN, |eta| slope(eta.get(i)));
+            variation.eta.set(i, rate);
+            let impulse = 0.5 * h * variation.force.get(i);
+            variation.mu.set(i, slope(sweep.mu.get(i)) + impulse);
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The end of a step: momenta and configurations as sums, with what rounding loses carried over.
+
+use lie::{RealGroup, VectorSpace};
+
+use crate::State;
+
+/// Steps between corrections of the rounding that moves the configuration off its group.
+///
+/// The compensated sum drifts off by rounding of the increments alone; a correction costs one rounding of the whole.
+const NORMALIZE_EVERY: u64 = 1024;
+
+/// What is carried from a step to the next beside the state.
+///
+/// The momentum in the frame of the identity, $\mathrm{Ad}^\ast_{g_k^{-1}} \mu_k$, changes by the impulse alone and is
+/// summed with Kahan's compensation, as are the numbers of the configuration where they are sums of increments.
+pub(super) struct Update<G: RealGroup> {
+    /// The state that the carried numbers belong to.
+    after: State<G>,
+    carry: G,
+    /// $\mathrm{Ad}^\ast_{g_k^{-1}} \mu_k$.
+    spatial: G::Dual,
+    spatial_carry: G::Dual,
+    increment: G::Dual,
+    steps: u64,
+    known: bool,
+}
+
+impl<G: RealGroup> Update<G> {
+    pub(super) fn new(g: &G) -> Self {
+        let zero = g.zero_dual();
+        let after = State {
+            t: 0.0,
+            g: g.clone(),
+            mu: zero.clone(),
+        };
+        Self {
+            carry: g.zero_carry(),
+            spatial: zero.clone(),
+            spatial_carry: zero.clone(),
+            increment: zero,
+            steps: 0,
+            known: false,
+            after,
+        }
+    }
+
+    /// Forgets what was carried.
+    pub(super) fn forget(&mut self) {
+        self.known = false;
+    }
+
+    /// The state after the displacement `f` and the impulse, the latter in the frame of the step's start; `None` where a number is not finite.
+    pub(super) fn advance(
+        &mut self,
+        state: &State<G>,
+        h: f64,
+        f: &G,
+        impulse: &G::Dual,
+    ) -> Option<&State<G>> {
+        if !(self.known && self.after.g == state.g && self.after.mu == state.mu) {
+            self.begin(state);
+        }
+        state.g.inverse_coadjoint_into(impulse, &mut self.increment);
+        self.add_increment();
+        self.after.t = state.t + h;
+        self.after.g.advance(f, &mut self.carry);
+        self.steps += 1;
+        if self.steps.is_multiple_of(NORMALIZE_EVERY) {
+            self.after.g.normalize();
+        }
+        self.after
+            .g
+            .coadjoint_into(&self.spatial, &mut self.after.mu);
+        self.known = self.after.g.is_finite() && self.after.mu.max_magnitude().is_finite();
+        self.known.then_some(&self.after)
+    }
+
+    fn begin(&mut self, state: &State<G>) {
+        self.after.g.clone_from(&state.g);
+        self.carry = state.g.zero_carry();
+        state.g.inverse_coadjoint_into(&state.mu, &mut self.spatial);
+        self.spatial_carry.set_zero();
+    }
+
+    /// Kahan's sum, coordinate by coordinate.
+    fn add_increment(&mut self) {
+        self.spatial_carry.add_scaled(1.0, &self.increment);
+        let wanted = &self.spatial_carry;
+        self.increment.clone_from(&self.spatial);
+        self.spatial.add_scaled(1.0, wanted);
+        // What was wanted, less what the sum has grown by.
+        self.spatial_carry.add_scaled(1.0, &self.increment);
+        self.spatial_carry.add_scaled(-1.0, &self.spatial);
+    }
+}
