@@ -1,6 +1,11 @@
 //! Experiments on integrators: what a structure-preserving method is compared
 //! with, and how the comparison is drawn.
 //!
+//! * [`problems`] — classical test problems, each with its solution and its
+//!   conserved quantities;
+//! * [`on_group`] — an independent reference for any continuous system on a
+//!   Lie group;
+//! * [`methods`] — the integrators of the fish chain's model, by name;
 //! * [`baseline`] — the non-geometric competitor: adaptive explicit
 //!   Runge–Kutta, also good as a tight-tolerance reference solution;
 //! * [`figure`] — grids of line charts, written as SVG and PNG without any
@@ -8,4 +13,7 @@
 
 pub mod baseline;
 pub mod figure;
+pub mod methods;
+pub mod on_group;
+pub mod problems;
 pub mod raw;

@@ -61,11 +61,11 @@ pub fn right_hand_side(
     let model = model.clone();
     let mut state = start.clone();
     let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
-    let mut workspace = ContinuousSystem::workspace::<f64>(&model);
-    move |_, y, dy| {
+    let mut workspace = ContinuousSystem::workspace::<f64>(&model, &state.g);
+    move |t, y, dy| {
         fill(&mut state, y);
         let (g, mu) = (&state.g, &state.mu);
-        model.velocity_and_force::<f64>(g, mu, &mut workspace, &mut xi, &mut tau);
+        model.velocity_and_force::<f64>(t, g, mu, &mut workspace, &mut xi, &mut tau);
         tau.add_scaled(1.0, &Configuration::coadjoint_bracket(&xi, mu));
         let (d_r0, rest) = dy.split_at_mut(9);
         let (d_x, rest) = rest.split_at_mut(3);

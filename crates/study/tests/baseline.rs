@@ -109,6 +109,30 @@ fn the_error_follows_the_tolerance() {
 }
 
 #[test]
+fn the_right_hand_side_may_depend_on_time() {
+    // Two phases: the error estimate of a single component passes through zero.
+    let forced = |t: f64, y: &[f64], dy: &mut [f64]| {
+        dy[0] = -y[0] * t.cos();
+        dy[1] = -y[1] * (t + 1.0).cos();
+    };
+    let exact = |t: f64| [t, t + 1.0].map(|phase| (-phase.sin()).exp()).to_vec();
+    let solve = |pair, tolerance| {
+        let tolerance = Tolerance::uniform(tolerance);
+        integrate(pair, forced, &exact(0.0), 200.0, 0.3, tolerance).expect("a motion")
+    };
+    for (pair, order) in PAIRS.into_iter().zip([5.0, 8.0]) {
+        let steps = [1e-8, 1e-11].map(|tolerance| {
+            let run = solve(pair, tolerance);
+            let error = worst(&run, exact);
+            assert!(error < 100.0 * tolerance, "{pair} {tolerance:e}: {error:e}");
+            run.accepted as f64
+        });
+        let slope = 1e3_f64.log10() / (steps[1] / steps[0]).log10();
+        assert!((slope - order).abs() < 0.5, "{pair}: {slope}");
+    }
+}
+
+#[test]
 fn the_number_of_steps_shows_the_order() {
     for (pair, order) in PAIRS.into_iter().zip([5.0, 8.0]) {
         let steps = |tolerance| oscillate(pair, 200.0, 200.0, tolerance).accepted as f64;

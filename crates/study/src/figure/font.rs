@@ -81,8 +81,8 @@ mod tests {
     #[test]
     fn the_subset_has_the_signs_of_mechanics() {
         use plotters::style::FontDesc;
-        let font = FontDesc::new(FAMILY.into(), 40.0, FontStyle::Normal);
         register().unwrap();
+        let font = FontDesc::new(FAMILY.into(), 40.0, FontStyle::Normal);
         // A missing glyph would draw the box of .notdef, as U+E000 does.
         let picture = |c: char| {
             let mut pixels = Vec::new();

@@ -1,0 +1,327 @@
+//! The integrators of the fish chain's model, each under one name.
+//!
+//! ```
+//! use study::methods::Method;
+//!
+//! let method: Method = "gauss-4".parse()?;
+//! assert_eq!((method.order(), method.to_string()), (8, "gauss-4".to_owned()));
+//! let error = "gauss-9".parse::<Method>().unwrap_err();
+//! assert!(error.to_string().contains("gauss-8"));
+//! # Ok::<(), study::methods::UnknownMethod>(())
+//! ```
+
+use core::fmt;
+use core::str::FromStr;
+
+use articulated_fluid::{ArticulatedBody, Configuration};
+use dvi::{Adjoint, Composition, Gauss, Integrator, Variational};
+use thiserror::Error;
+
+/// An integrator of [`ArticulatedBody`], chosen at run time.
+///
+/// All of them stay on the group and are symplectic, and keep the momentum maps to rounding; they differ in order, in symmetry
+/// and in cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// The paper's: the stepping map of its discrete Lagrangian (22), which looks at the start of the step; order 1.
+    #[default]
+    Lgvi,
+    /// Its [adjoint](Adjoint), which looks at the end of the step; order 1.
+    LgviAdjoint,
+    /// Half a step of the paper's and half a step of its adjoint; order 2.
+    Composition2,
+    /// Five of these pairs; order 4.
+    Composition4,
+    /// Nine of these pairs; order 6.
+    Composition6,
+    /// Seventeen of these pairs; order 8.
+    Composition8,
+    /// Variational [`Gauss`] collocation of one stage; order 2.
+    Gauss1,
+    /// Of two stages; order 4.
+    Gauss2,
+    /// Of three stages; order 6.
+    Gauss3,
+    /// Of four stages; order 8.
+    Gauss4,
+    /// Of five stages; order 10.
+    Gauss5,
+    /// Of six stages; order 12.
+    Gauss6,
+    /// Of seven stages; order 14.
+    Gauss7,
+    /// Of eight stages; order 16.
+    Gauss8,
+}
+
+/// How a method makes a step, and so what a [report](dvi::StepReport) of it counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Family {
+    /// One implicit step of a discrete Lagrangian: an iteration evaluates its derivatives once.
+    Variational,
+    /// Implicit steps one after the other: an iteration evaluates the derivatives of one of them once.
+    Composition {
+        /// How many.
+        substeps: u32,
+    },
+    /// Collocation: an iteration is a sweep, which evaluates the continuous model once at each stage.
+    Gauss {
+        /// How many.
+        stages: u32,
+    },
+}
+
+/// What a step evaluates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Evaluation {
+    /// The two derivatives of the discrete Lagrangian, (29)–(33).
+    DiscreteDerivatives,
+    /// The velocity and the force of the continuous model, (8)–(20).
+    VelocityAndForce,
+}
+
+impl fmt::Display for Evaluation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::DiscreteDerivatives => "derivatives of the discrete Lagrangian",
+            Self::VelocityAndForce => "velocity and force of the continuous model",
+        })
+    }
+}
+
+/// What a method keeps beside its order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Conserved {
+    /// The configuration stays on its group.
+    Group,
+    /// The symplectic form; the energy's error stays bounded with it.
+    SymplecticForm,
+    /// The momentum maps of the symmetries: linear and angular momentum, to rounding.
+    MomentumMaps,
+    /// A step of `-h` undoes a step of `h`.
+    Reversibility,
+}
+
+impl fmt::Display for Conserved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Group => "group",
+            Self::SymplecticForm => "symplectic form",
+            Self::MomentumMaps => "momentum maps",
+            Self::Reversibility => "reversibility",
+        })
+    }
+}
+
+/// No method has this name.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("no method is called `{name}`; expected one of {}", names())]
+pub struct UnknownMethod {
+    /// What was asked for.
+    pub name: String,
+}
+
+fn names() -> String {
+    Method::all().map(Method::name).collect::<Vec<_>>().join(", ")
+}
+
+/// What is known of a method but for its construction.
+struct Entry {
+    method: Method,
+    name: &'static str,
+    description: &'static str,
+    family: Family,
+    order: u32,
+    /// s.
+    default_step: f64,
+    evaluations_per_step: u32,
+}
+
+const fn gauss(method: Method, name: &'static str, stages: u32, typical: (f64, u32)) -> Entry {
+    Entry {
+        method,
+        name,
+        description: "variational Gauss collocation of the continuous Lagrangian",
+        family: Family::Gauss { stages },
+        order: 2 * stages,
+        default_step: typical.0,
+        evaluations_per_step: typical.1,
+    }
+}
+
+const fn composition(
+    method: Method,
+    name: &'static str,
+    (order, substeps): (u32, u32),
+    typical: (f64, u32),
+) -> Entry {
+    Entry {
+        method,
+        name,
+        description: "symmetric composition of lgvi and lgvi-adjoint",
+        family: Family::Composition { substeps },
+        order,
+        default_step: typical.0,
+        evaluations_per_step: typical.1,
+    }
+}
+
+/// In the order of [`Method`]'s variants.
+const TABLE: [Entry; 14] = [
+    Entry {
+        method: Method::Lgvi,
+        name: "lgvi",
+        description: "Lie group variational integrator of Lee, Leok & McClamroch (2009)",
+        family: Family::Variational,
+        order: 1,
+        default_step: 0.001,
+        evaluations_per_step: 3,
+    },
+    Entry {
+        method: Method::LgviAdjoint,
+        name: "lgvi-adjoint",
+        description: "adjoint of lgvi: its couplings are taken at the step's end",
+        family: Family::Variational,
+        order: 1,
+        default_step: 0.001,
+        evaluations_per_step: 3,
+    },
+    composition(Method::Composition2, "composition-2", (2, 2), (0.01, 8)),
+    composition(Method::Composition4, "composition-4", (4, 10), (0.05, 60)),
+    composition(Method::Composition6, "composition-6", (6, 18), (0.1, 110)),
+    composition(Method::Composition8, "composition-8", (8, 34), (0.2, 210)),
+    gauss(Method::Gauss1, "gauss-1", 1, (0.01, 7)),
+    gauss(Method::Gauss2, "gauss-2", 2, (0.05, 16)),
+    gauss(Method::Gauss3, "gauss-3", 3, (0.1, 27)),
+    gauss(Method::Gauss4, "gauss-4", 4, (0.1, 36)),
+    gauss(Method::Gauss5, "gauss-5", 5, (0.2, 50)),
+    gauss(Method::Gauss6, "gauss-6", 6, (0.2, 60)),
+    gauss(Method::Gauss7, "gauss-7", 7, (0.25, 70)),
+    gauss(Method::Gauss8, "gauss-8", 8, (0.25, 90)),
+];
+
+const _: () = {
+    let mut i = 0;
+    while i < TABLE.len() {
+        assert!(TABLE[i].method as usize == i, "TABLE is out of order");
+        i += 1;
+    }
+};
+
+impl Method {
+    /// Every method, the default first.
+    pub fn all() -> impl ExactSizeIterator<Item = Self> + Clone {
+        TABLE.iter().map(|entry| entry.method)
+    }
+
+    fn entry(self) -> &'static Entry {
+        &TABLE[self as usize]
+    }
+
+    /// What it is called on a command line.
+    pub fn name(self) -> &'static str {
+        self.entry().name
+    }
+
+    /// What it is, in a line.
+    pub fn description(self) -> &'static str {
+        self.entry().description
+    }
+
+    /// How it makes a step.
+    pub fn family(self) -> Family {
+        self.entry().family
+    }
+
+    /// The order: the error at a fixed time falls as $h^{\text{order}}$.
+    pub fn order(self) -> u32 {
+        self.entry().order
+    }
+
+    /// Whether a step of $-h$ undoes a step of $h$.
+    pub fn is_symmetric(self) -> bool {
+        matches!(self.family(), Family::Composition { .. })
+    }
+
+    /// Whether a step preserves the symplectic form.
+    pub fn is_symplectic(self) -> bool {
+        true
+    }
+
+    /// What it keeps.
+    pub fn conserved(self) -> &'static [Conserved] {
+        const ALL: [Conserved; 4] = [
+            Conserved::Group,
+            Conserved::SymplecticForm,
+            Conserved::MomentumMaps,
+            Conserved::Reversibility,
+        ];
+        if self.is_symmetric() { &ALL } else { &ALL[..3] }
+    }
+
+    /// A step that is usable and sensible on the paper's scene, in seconds.
+    pub fn default_step(self) -> f64 {
+        self.entry().default_step
+    }
+
+    /// What a step evaluates.
+    pub fn evaluation(self) -> Evaluation {
+        match self.family() {
+            Family::Gauss { .. } => Evaluation::VelocityAndForce,
+            _ => Evaluation::DiscreteDerivatives,
+        }
+    }
+
+    /// About how many [evaluations](Self::evaluation) a [default step](Self::default_step) takes, measured on the paper's scene.
+    ///
+    /// The stages of a Gauss sweep are counted one by one. Newton's matrices, which are kept over many steps, are not counted.
+    pub fn evaluations_per_step(self) -> u32 {
+        self.entry().evaluations_per_step
+    }
+
+    /// The method for a model.
+    pub fn integrator(
+        self,
+        model: ArticulatedBody,
+    ) -> Box<dyn Integrator<Group = Configuration> + Send> {
+        match self {
+            Self::Lgvi => Box::new(Variational::with_inertia(model)),
+            Self::LgviAdjoint => Box::new(Variational::new(Adjoint(model))),
+            Self::Composition2 => Box::new(Composition::<_, 2>::new(model)),
+            Self::Composition4 => Box::new(Composition::<_, 4>::new(model)),
+            Self::Composition6 => Box::new(Composition::<_, 6>::new(model)),
+            Self::Composition8 => Box::new(Composition::<_, 8>::new(model)),
+            Self::Gauss1 => Box::new(Gauss::<_, 1>::new(model)),
+            Self::Gauss2 => Box::new(Gauss::<_, 2>::new(model)),
+            Self::Gauss3 => Box::new(Gauss::<_, 3>::new(model)),
+            Self::Gauss4 => Box::new(Gauss::<_, 4>::new(model)),
+            Self::Gauss5 => Box::new(Gauss::<_, 5>::new(model)),
+            Self::Gauss6 => Box::new(Gauss::<_, 6>::new(model)),
+            Self::Gauss7 => Box::new(Gauss::<_, 7>::new(model)),
+            Self::Gauss8 => Box::new(Gauss::<_, 8>::new(model)),
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Method {
+    type Err = UnknownMethod;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
+        let unknown = || UnknownMethod {
+            name: name.to_owned(),
+        };
+        Self::all()
+            .find(|method| method.name() == name)
+            .ok_or_else(unknown)
+    }
+}
