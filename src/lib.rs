@@ -8,6 +8,8 @@
 //!
 //! With the default feature `cli` it also is the command `lgvi`; a library wants `default-features = false`.
 
+pub mod guide;
+
 pub use articulated_fluid;
 pub use dvi;
 pub use lie;

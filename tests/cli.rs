@@ -235,7 +235,238 @@ fn the_summary_as_json() {
         assert!((least..=most).contains(&value), "{key}: {value}");
     }
     assert!(summary["csv"].is_null());
-    assert!(summary["method"].as_str().unwrap().contains("variational"));
+    assert!(summary["sample_every_seconds"].is_null());
+    assert_eq!(summary["method"], "lgvi");
+}
+
+#[test]
+fn the_methods_are_listed() {
+    let directory = directory();
+    let methods = json(directory.path(), &["methods", "--json"]);
+    let methods = methods.as_array().unwrap();
+    let order = |name: &str| match name.split_once('-') {
+        Some(("gauss", stages)) => 2 * stages.parse::<u64>().unwrap(),
+        Some(("composition", order)) => order.parse().unwrap(),
+        _ => 1,
+    };
+    let text = lgvi(directory.path(), &["methods"]).stdout;
+    let text = String::from_utf8(text).unwrap();
+    for method in methods {
+        let name = method["name"].as_str().unwrap();
+        assert_eq!(method["order"], order(name), "{name}");
+        assert_eq!(method["symmetric"], name.starts_with("comp"), "{name}");
+        assert_eq!(method["symplectic"], true, "{name}");
+        assert!(method["default_step_seconds"].as_f64().unwrap() > 0.0);
+        assert!(method["evaluations_per_step"].as_u64().unwrap() > 1);
+        let row = |line: &str| line.split_whitespace().next() == Some(name);
+        assert!(text.lines().any(row), "{name}: {text}");
+    }
+    let names: Vec<_> = methods
+        .iter()
+        .map(|m| m["name"].as_str().unwrap())
+        .collect();
+    let gauss = (1..=8).map(|stages| format!("gauss-{stages}"));
+    let compositions = [2, 4, 6, 8].map(|order| format!("composition-{order}"));
+    let basic = ["lgvi", "lgvi-adjoint"].map(str::to_owned);
+    let expected: Vec<_> = basic.into_iter().chain(compositions).chain(gauss).collect();
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn every_family_of_methods_keeps_what_the_motion_keeps() {
+    let directory = directory();
+    for (method, order, step, energy) in [
+        ("lgvi-adjoint", 1, 0.001, 1e-3),
+        ("composition-4", 4, 0.05, 1e-5),
+        ("gauss-4", 8, 0.1, 1e-8),
+    ] {
+        let args = ["run", "--until", "20", "--json", "--method", method];
+        let summary = json(directory.path(), &args);
+        let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key}"));
+        assert_eq!(summary["method"], method);
+        assert_eq!(summary["method_order"], order, "{method}");
+        assert_eq!(number("step_seconds"), step, "{method}");
+        for (key, least, most) in [
+            ("energy_error_max_relative", 1e-14, energy),
+            ("linear_momentum_deviation_max", 0.0, 1e-13),
+            ("angular_momentum_deviation_max", 0.0, 1e-11),
+            ("orthogonality_error_max", 0.0, 1e-13),
+            ("solver_residual_max", 0.0, 1e-9),
+            ("solver_iterations_mean", 2.0, 1000.0),
+        ] {
+            let value = number(key);
+            assert!((least..=most).contains(&value), "{method}: {key}: {value}");
+        }
+    }
+}
+
+#[test]
+fn the_summary_names_the_method_and_what_its_iterations_are() {
+    let directory = directory();
+    for (method, words) in [
+        (
+            "lgvi",
+            [
+                "lgvi, order 1",
+                "0.001 s, the method's default",
+                "solver iterations",
+            ],
+        ),
+        (
+            "composition-2",
+            [
+                "composition-2, order 2",
+                "0.01 s, the method's default",
+                "in 2 substeps",
+            ],
+        ),
+        (
+            "gauss-3",
+            [
+                "gauss-3, order 6",
+                "0.1 s, the method's default",
+                "over 3 stages",
+            ],
+        ),
+    ] {
+        let output = lgvi(
+            directory.path(),
+            &["run", "--until", "1", "--method", method],
+        );
+        let summary = text(&output.stdout);
+        for word in words {
+            assert!(summary.contains(word), "{word}: {summary}");
+        }
+    }
+    let args = ["run", "--until", "0.25", "--method", "gauss-3"];
+    let output = lgvi(directory.path(), &args);
+    assert!(text(&output.stdout).contains("not the default 0.1 s"));
+}
+
+#[test]
+fn unknown_methods_are_refused() {
+    let words = [
+        "--method",
+        "gaus-4",
+        "similar",
+        "'gauss-4'",
+        "lgvi-adjoint",
+        "composition-8",
+    ];
+    fails(&["run", "--method", "gaus-4", "--out", "a.csv"], 2, &words);
+    fails(&["run", "--method", "", "--out", "a.csv"], 2, &["--method"]);
+}
+
+/// The times, and the first numbers of the head's row, of a run that samples as `args` say.
+fn trajectory(directory: &Path, args: &[&str]) -> Vec<Vec<f64>> {
+    let output = lgvi(directory, &[&["run", "--out", "a.csv"], args].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let (_, rows) = table(&directory.join("a.csv"));
+    rows.iter().map(|row| numbers(row)[..11].to_vec()).collect()
+}
+
+fn farthest(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let pairs = a.iter().flatten().zip(b.iter().flatten());
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn rows_at_times_that_the_step_does_not_choose() {
+    let directory = directory();
+    let run = |args: &[&str]| trajectory(directory.path(), &[&["--until", "2"], args].concat());
+    let exact = run(&["--method", "gauss-8", "--step", "0.05", "--every", "3"]);
+    let times: Vec<f64> = (0..14).map(|k| f64::from(k) * 0.15).chain([2.0]).collect();
+    let every = ["--every-seconds", "0.15"];
+    for (method, step, error) in [
+        ("lgvi", "0.001", 5e-3),
+        ("lgvi", "0.0004", 2e-3),
+        ("composition-4", "0.08", 1e-4),
+        ("gauss-4", "0.1", 1e-8),
+        ("gauss-8", "0.25", 1e-11),
+        ("gauss-8", "2e-1", 1e-11),
+    ] {
+        let rows = run(&[&["--method", method, "--step", step], &every[..]].concat());
+        let found: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+        assert_eq!(found, times, "{method}, {step}");
+        let worst = farthest(&rows, &exact);
+        assert!(worst < error, "{method}, {step}: {worst:e}");
+        assert!(
+            method != "lgvi" || worst > error / 100.0,
+            "{step}: {worst:e}"
+        );
+    }
+}
+
+#[test]
+fn rows_between_steps_leave_the_steps_as_they_are() {
+    let directory = directory();
+    for method in ["lgvi", "composition-2", "gauss-6"] {
+        let run = |every: &[&str]| {
+            let args = [&["--until", "3", "--method", method], every].concat();
+            trajectory(directory.path(), &args).pop().unwrap()
+        };
+        let (plain, sampled) = (run(&[]), run(&["--every-seconds", "0.0037"]));
+        let worst = farthest(&[plain], &[sampled]);
+        assert!(worst < 1e-11, "{method}: {worst:e}");
+    }
+}
+
+#[test]
+fn samples_are_asked_for_in_one_way() {
+    let both = [
+        "run",
+        "--every",
+        "2",
+        "--every-seconds",
+        "0.1",
+        "--out",
+        "a.csv",
+    ];
+    fails(&both, 2, &["--every <N>", "--every-seconds"]);
+    let directory = directory();
+    let args = ["run", "--until", "1", "--every-seconds", "0.3", "--json"];
+    let summary = json(directory.path(), &args);
+    assert_eq!(summary["sample_every_seconds"], 0.3);
+    assert!(summary["sample_every_steps"].is_null());
+    assert_eq!(summary["samples"], 5);
+    let output = lgvi(directory.path(), &args[..5]);
+    assert!(text(&output.stdout).contains("5, every 0.3 s"));
+}
+
+/// The step that a refused one's hint names.
+fn hinted(message: &str) -> &str {
+    let (_, hint) = message.split_once("try a smaller step, such as ").unwrap();
+    hint.trim().strip_suffix(" s").unwrap()
+}
+
+#[test]
+fn a_step_too_long_is_refused_with_one_that_is_not() {
+    let directory = directory();
+    let run = |method: &str, step: &str| {
+        let args = ["run", "--until", "100", "--method", method, "--step", step];
+        lgvi(directory.path(), &args)
+    };
+    for (method, step) in [
+        ("lgvi", "20"),
+        ("gauss-1", "20"),
+        ("gauss-4", "10"),
+        ("gauss-8", "2"),
+    ] {
+        let mut step = step.to_owned();
+        // The hint is for the step that failed; the motion may be faster later.
+        for _ in 0..10 {
+            let output = run(method, &step);
+            if output.status.success() {
+                break;
+            }
+            assert_eq!(output.status.code(), Some(1), "{method}");
+            let shorter = hinted(text(&output.stderr)).to_owned();
+            assert!(shorter.parse::<f64>().unwrap() < step.parse().unwrap());
+            step = shorter;
+        }
+        assert!(run(method, &step).status.success(), "{method}: {step}");
+    }
 }
 
 #[test]
@@ -275,7 +506,7 @@ fn scenes_from_files() {
 fn bad_numbers_are_refused() {
     for value in ["0", "-1", "nan", "inf", "-inf", "soon"] {
         let words = [value, "expected a finite number > 0, in seconds"];
-        for option in ["--step", "--until"] {
+        for option in ["--step", "--until", "--every-seconds"] {
             let args = ["run", option, value, "--out", "a.csv"];
             fails(&args, 2, &[&words[..], &[option]].concat());
         }
@@ -291,6 +522,12 @@ fn absurdly_many_steps_are_refused() {
     let words = ["steps", "--step", "--until"];
     fails(&["run", "--step", "1e-20", "--out", "a.csv"], 2, &words);
     fails(&["run", "--until", "1e300", "--out", "a.csv"], 2, &words);
+    let words = ["samples", "--every-seconds", "--until"];
+    fails(
+        &["run", "--every-seconds", "1e-20", "--out", "a.csv"],
+        2,
+        &words,
+    );
 }
 
 #[test]
@@ -392,7 +629,9 @@ fn help_tells_keys_columns_and_exit_codes() {
         "NAME.qw",
         "Exit codes",
         "Examples",
-        "--every",
+        "--every-seconds",
+        "composition-4",
+        "order 16",
     ] {
         assert!(help.contains(word), "{word}: {help}");
     }
@@ -410,6 +649,7 @@ fn a_reader_that_goes_away_is_no_failure() {
         &["run", "--until", "0.01"][..],
         &["run", "--until", "0.01", "--json"],
         &["run", "--help"],
+        &["methods"],
     ] {
         let mut child = command(directory.path(), args)
             .stdout(Stdio::piped())

@@ -51,7 +51,7 @@ fn the_paper_s_formulas_pass() {
         laws::check_symmetry(&model, &Turn(Vec3([0.3, -1.0, 0.5])), &states, h).unwrap();
         laws::check_symmetry(&model, &Shift(Vec3([1.0, 2.0, 0.5])), &states, h).unwrap();
     }
-    laws::check_consistency(&model, &model, &[state.clone()]).unwrap();
+    laws::check_consistency(&model, &model, core::slice::from_ref(&state)).unwrap();
     laws::check(&OnSe3(model), &[OnSe3::from_direct(&state)], 0.02).unwrap();
 }
 
@@ -71,7 +71,8 @@ fn every_rule_discretises_the_continuous_model() {
     fn prove<Q: Quadrature>() {
         let (model, state) = bent();
         let discrete = model.discretise::<Q>();
-        laws::check(&discrete, &[state.clone()], 0.02).unwrap_or_else(|e| panic!("{e}"));
+        laws::check(&discrete, core::slice::from_ref(&state), 0.02)
+            .unwrap_or_else(|e| panic!("{e}"));
         let integrator = || Variational::new(&discrete);
         let order = laws::check_order(integrator, &state, 0.5, &[40, 80, 160]);
         println!("{}: {:?}", Q::NAME, order.unwrap().slope);

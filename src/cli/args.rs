@@ -1,5 +1,7 @@
 //! Values of options.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use study::methods::{Method, UnknownMethod};
 use thiserror::Error;
 
 /// Why a value was refused.
@@ -22,4 +24,14 @@ pub fn seconds(text: &str) -> Result<f64, ValueError> {
 pub fn count(text: &str) -> Result<u64, ValueError> {
     let value = text.parse().map_err(|_| ValueError::Count)?;
     (value > 0).then_some(value).ok_or(ValueError::Count)
+}
+
+/// A method by its name; help and errors tell them all.
+pub fn method() -> impl TypedValueParser<Value = Method> {
+    let value = |method: Method| {
+        let help = format!("order {}: {}", method.order(), method.description());
+        PossibleValue::new(method.name()).help(help)
+    };
+    PossibleValuesParser::new(Method::all().map(value))
+        .try_map(|name| name.parse::<Method>() as Result<_, UnknownMethod>)
 }

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::print::decimal;
 
 /// More steps than this are taken for a slip: a day of computing and more.
-const MAX_STEPS: f64 = 1e11;
+pub const MAX_STEPS: f64 = 1e11;
 
 /// What rounding does to the quotient of two durations, relative, with room to spare.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -76,6 +76,22 @@ impl Clock {
             done / steps * self.until
         }
     }
+
+    /// The number of steps that end at `t` or before, and the seconds from there to `t`: none where only rounding is between.
+    pub fn locate(&self, t: f64) -> (u64, f64) {
+        let nearest = ((t / self.step()).round() as u64).min(self.steps);
+        let ahead = t - self.time(nearest);
+        if ahead.abs() <= ROUNDING * t {
+            return (nearest, 0.0);
+        }
+        let before = nearest.saturating_sub(u64::from(ahead < 0.0));
+        (before, t - self.time(before))
+    }
+
+    /// Whether `t` is the end, or beyond it, or before it by rounding only.
+    pub fn is_end(&self, t: f64) -> bool {
+        t >= self.until * (1.0 - ROUNDING)
+    }
 }
 
 #[cfg(test)]
@@ -119,6 +135,19 @@ mod tests {
                 assert_eq!(clock.time(0), 0.0);
             }
         }
+    }
+
+    #[test]
+    fn a_time_is_found_between_steps() {
+        let clock = Clock::new(100.0, 0.001).unwrap();
+        for k in 0..1000_u64 {
+            assert_eq!(clock.locate(k as f64 * 0.1), (100 * k, 0.0));
+        }
+        let clock = Clock::new(10.0, 0.25).unwrap();
+        assert_eq!(clock.locate(0.1), (0, 0.1));
+        assert_eq!(clock.locate(0.5), (2, 0.0));
+        assert_eq!(clock.locate(0.6875), (2, 0.1875));
+        assert!(clock.is_end(10.0) && clock.is_end(100.0 * 0.1) && !clock.is_end(9.99));
     }
 
     #[test]

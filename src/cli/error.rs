@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use super::clock::TooManySteps;
 use super::output::OutputError;
+use super::schedule::TooManySamples;
 
 /// The exit code of a run or a write that failed.
 const FAILURE: u8 = 1;
@@ -27,6 +28,8 @@ pub enum CliError {
     Model { file: String, source: ModelError },
     #[error(transparent)]
     TooManySteps(#[from] TooManySteps),
+    #[error(transparent)]
+    TooManySamples(#[from] TooManySamples),
     #[error("--out {} is the scene itself; give the CSV file another name", .0.display())]
     OutputIsScene(PathBuf),
     #[error("--out {}: {source}", path.display())]
@@ -52,6 +55,7 @@ impl CliError {
             Self::Scene(_)
             | Self::Model { .. }
             | Self::TooManySteps(_)
+            | Self::TooManySamples(_)
             | Self::OutputIsScene(_) => USAGE,
             Self::Interrupted { signal, .. } => u8::try_from(SIGNALLED + signal).unwrap_or(FAILURE),
             _ => FAILURE,

@@ -4,11 +4,13 @@ mod args;
 mod clock;
 mod error;
 mod interrupt;
+mod methods;
 mod output;
 mod print;
 mod run;
 mod sample;
 mod scene;
+mod schedule;
 mod summary;
 mod table;
 
@@ -23,6 +25,8 @@ Examples:
   lgvi run                              the built-in scene for 100 s
   lgvi run --until 10 --out fish.csv    10 s of it, with the trajectory
   lgvi run boat.toml --step 0.01        a scene of one's own
+  lgvi run --method gauss-4             another integrator, at its own default step
+  lgvi methods                          the integrators: orders, steps, costs
   lgvi run --help                       options, CSV columns, keys of a scene";
 
 /// Lie group variational integrators for rigid bodies on ball joints in a perfect fluid.
@@ -39,12 +43,14 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Methods(methods::Args),
 }
 
 impl Command {
     fn execute(&self) -> Result<(), CliError> {
         match self {
             Self::Run(args) => run::execute(args),
+            Self::Methods(args) => methods::execute(args),
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use std::io::{self, ErrorKind, Write};
 
+use serde::Serialize;
+
 use super::error::CliError;
 
 /// Writes `text` to stdout; that nobody reads it is no error.
@@ -26,4 +28,27 @@ pub fn decimal(value: f64) -> String {
     } else {
         format!("{value:e}")
     }
+}
+
+/// A value as JSON on a line.
+pub fn json(value: &impl Serialize) -> Result<String, CliError> {
+    let text = serde_json::to_string(value).map_err(|error| CliError::Stdout(error.into()))?;
+    Ok(text + "\n")
+}
+
+/// Rows with their columns aligned to the left, two spaces apart.
+pub fn columns<const N: usize>(rows: &[[String; N]]) -> String {
+    let width = |column: usize| {
+        let widths = rows.iter().map(|row| row[column].chars().count());
+        widths.max().unwrap_or(0)
+    };
+    let widths: [usize; N] = core::array::from_fn(width);
+    let line = |row: &[String; N]| {
+        let padded = row
+            .iter()
+            .zip(widths)
+            .map(|(text, width)| format!("{text:width$}  "));
+        padded.collect::<String>().trim_end().to_owned() + "\n"
+    };
+    rows.iter().map(line).collect()
 }

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use articulated_fluid::{ArticulatedBody, Configuration, scene};
-use dvi::{Integrator, State, StepReport, Variational};
+use dvi::{Integrator, State, StepReport};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
+use study::methods::Method;
 
 use super::args;
 use super::clock::Clock;
@@ -17,17 +18,16 @@ use super::output::{Output, OutputError};
 use super::print;
 use super::sample::{Sample, Watch};
 use super::scene::{Loaded, load};
+use super::schedule::{Due, Schedule};
 use super::summary::Summary;
 use super::table::{COLUMNS, Table};
 
-const METHOD: &str = "Lie group variational integrator";
-
 /// Steps after which the progress bar moves and interrupts are noticed, at the latest.
-const CHUNK: u64 = 1000;
+const CHUNK: u64 = 100;
 
 /// Simulate a scene, and tell how well the motion's constants were kept.
 ///
-/// Steps the scene's bodies from t = 0 with the Lie group variational integrator, and ends with a summary: the
+/// Steps the scene's bodies from t = 0 with a Lie group variational integrator, and ends with a summary: the
 /// cost of a step and the errors of energy, momenta and rotations. With --out the trajectory becomes a CSV file.
 #[derive(clap::Args)]
 #[command(after_long_help = after_long_help())]
@@ -38,18 +38,36 @@ pub struct Args {
     /// Simulated time, in seconds
     #[arg(long, value_name = "SECONDS", default_value = "100", value_parser = args::seconds, allow_hyphen_values = true)]
     until: f64,
-    /// Step size, in seconds; a little shorter where whole steps would not end at --until
-    #[arg(long, value_name = "SECONDS", default_value = "0.001", value_parser = args::seconds, allow_hyphen_values = true)]
-    step: f64,
+    /// The integrator; see `lgvi methods`
+    #[arg(long, value_name = "NAME", default_value_t = Method::default(), value_parser = args::method())]
+    method: Method,
+    /// Step size, in seconds; a little shorter where whole steps would not end at --until [default: the method's, 0.001 for lgvi]
+    #[arg(long, value_name = "SECONDS", value_parser = args::seconds, allow_hyphen_values = true)]
+    step: Option<f64>,
     /// Write the trajectory to this CSV file: whole, or not at all
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
     /// Steps between samples; t = 0 and the end are always sampled
     #[arg(long, value_name = "N", default_value = "10", value_parser = args::count, allow_hyphen_values = true)]
     every: u64,
+    /// Seconds between samples, whatever the step; those inside a step are computed by a shorter step of the method, not interpolated
+    #[arg(long, value_name = "SECONDS", value_parser = args::seconds, allow_hyphen_values = true, conflicts_with = "every")]
+    every_seconds: Option<f64>,
     /// Print the summary as one JSON object
     #[arg(long)]
     json: bool,
+}
+
+impl Args {
+    /// The step to take at most, s.
+    fn step(&self) -> f64 {
+        self.step.unwrap_or_else(|| self.method.default_step())
+    }
+
+    fn schedule(&self) -> Schedule {
+        let steps = Schedule::Steps(self.every);
+        self.every_seconds.map_or(steps, Schedule::Seconds)
+    }
 }
 
 fn after_long_help() -> String {
@@ -67,6 +85,8 @@ Examples:
   lgvi run                                       the built-in scene for 100 s
   lgvi run --until 10 --out fish.csv             10 s of it, a row every 10 ms
   lgvi run boat.toml --step 0.01 --every 1       a scene of one's own, a row for each step
+  lgvi run --method gauss-4 --every-seconds 0.04 --out film.csv
+                                                 order 8 in long steps, 25 rows a second
   lgvi run --json | jq .energy_error_max_relative
 
 CSV columns, with 17 significant digits; the first row is t = 0, the last one --until:
@@ -87,15 +107,15 @@ Exit codes:
 /// Simulates the scene and prints the summary.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(args.scene.as_deref())?;
-    let clock = Clock::new(args.until, args.step)?;
+    let clock = Clock::new(args.until, args.step())?;
+    args.schedule().check(&clock)?;
     // Before there is a file that an early signal would leave behind.
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
     let table = open(args, &loaded)?;
-    let mut integrator = Variational::with_inertia(loaded.model.clone());
-    let order = integrator.order();
+    let mut integrator = args.method.integrator(loaded.model.clone());
     let mut run = Run::new(args, clock, &loaded, table, interrupt)?;
-    run.simulate(&mut integrator)?;
-    let summary = run.summary(args, &loaded, order);
+    run.simulate(&mut *integrator)?;
+    let summary = run.summary(args, &loaded);
     run.finish()?;
     let text = match args.json {
         true => summary.json()?,
@@ -130,7 +150,7 @@ fn refused(path: &Path, source: OutputError) -> CliError {
 /// A run in progress.
 struct Run<'a> {
     clock: Clock,
-    every: u64,
+    schedule: Schedule,
     out: Option<(&'a Path, Table<Output>)>,
     model: &'a ArticulatedBody,
     state: State<Configuration>,
@@ -170,16 +190,16 @@ impl<'a> Run<'a> {
         let sample = Sample::take(model, &state).ok_or(CliError::NotFinite { t: 0.0 })?;
         let mut run = Self {
             clock,
-            every: args.every,
+            schedule: args.schedule(),
             out: args.out.as_deref().zip(table),
             model,
-            state,
+            state: state.clone(),
             done: 0,
             solver: Solver::default(),
             watch: Watch::new(sample),
             interrupt,
         };
-        run.write(&sample)?;
+        run.write(&state, &sample)?;
         Ok(run)
     }
 
@@ -189,25 +209,28 @@ impl<'a> Run<'a> {
         integrator: &mut dyn Integrator<Group = Configuration>,
     ) -> Result<(), CliError> {
         let bar = progress_bar(self.clock.steps);
-        while self.done < self.clock.steps {
-            let sample_at = self.next_sample();
-            self.advance(integrator, sample_at.min(self.done + CHUNK))?;
-            bar.set_position(self.done);
-            if let Some(signal) = self.interrupt.signal() {
-                let t = self.state.t;
-                return Err(CliError::Interrupted { t, signal });
+        for k in 1.. {
+            let due = self.schedule.due(&self.clock, k);
+            while self.done < due.steps {
+                self.advance(integrator, due.steps.min(self.done + CHUNK))?;
+                bar.set_position(self.done);
+                self.heed_signals()?;
             }
-            if self.done == sample_at {
-                self.sample()?;
+            self.sample(integrator, &due)?;
+            self.heed_signals()?;
+            if due.steps == self.clock.steps {
+                break;
             }
         }
         Ok(())
     }
 
-    /// The step after which a sample is due.
-    fn next_sample(&self) -> u64 {
-        let sample = (self.done / self.every + 1).saturating_mul(self.every);
-        sample.min(self.clock.steps)
+    fn heed_signals(&self) -> Result<(), CliError> {
+        let t = self.state.t;
+        match self.interrupt.signal() {
+            Some(signal) => Err(CliError::Interrupted { t, signal }),
+            None => Ok(()),
+        }
     }
 
     /// Takes the steps up to number `stop`: only they are timed.
@@ -227,38 +250,55 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn sample(&mut self) -> Result<(), CliError> {
-        let t = self.state.t;
-        let sample = Sample::take(self.model, &self.state).ok_or(CliError::NotFinite { t })?;
+    fn sample(
+        &mut self,
+        integrator: &mut dyn Integrator<Group = Configuration>,
+        due: &Due,
+    ) -> Result<(), CliError> {
+        let mut state = match due.ahead {
+            0.0 => self.state.clone(),
+            ahead => integrator.peek(&self.state, ahead)?,
+        };
+        state.t = due.t;
+        let sample = Sample::take(self.model, &state).ok_or(CliError::NotFinite { t: due.t })?;
         self.watch.add(&sample);
-        self.write(&sample)
+        self.write(&state, &sample)
     }
 
-    fn write(&mut self, sample: &Sample) -> Result<(), CliError> {
+    fn write(&mut self, state: &State<Configuration>, sample: &Sample) -> Result<(), CliError> {
         let Some((path, table)) = &mut self.out else {
             return Ok(());
         };
         table
-            .row(self.model, &self.state, sample)
+            .row(self.model, state, sample)
             .map_err(|error| refused(path, error.into()))
     }
 
-    fn summary(&self, args: &Args, loaded: &Loaded, order: u32) -> Summary {
+    fn summary(&self, args: &Args, loaded: &Loaded) -> Summary {
         let (clock, solver, watch) = (&self.clock, &self.solver, &self.watch);
-        let steps = clock.steps as f64;
+        let (method, steps) = (args.method, clock.steps as f64);
+        let iterations = solver.iterations as f64 / steps;
+        let (every_steps, every_seconds) = match self.schedule {
+            Schedule::Steps(steps) => (Some(steps), None),
+            Schedule::Seconds(seconds) => (None, Some(seconds)),
+        };
         Summary {
             title: loaded.scene.title.clone(),
             scene: loaded.file.clone(),
             bodies: loaded.scene.bodies.len(),
-            method: METHOD,
-            method_order: order,
+            method: method.name(),
+            method_description: method.description(),
+            method_order: method.order(),
+            family: method.family(),
             steps: clock.steps,
             step_seconds: clock.step(),
             step_asked_seconds: clock.asked,
             step_is_adjusted: clock.is_adjusted(),
+            step_is_default: args.step.is_none(),
             until_seconds: clock.until,
             time_per_step_us: solver.time.as_secs_f64() * 1e6 / steps,
-            sample_every_steps: self.every,
+            sample_every_steps: every_steps,
+            sample_every_seconds: every_seconds,
             samples: watch.count(),
             energy_initial_joules: watch.initial_energy(),
             energy_error_max_relative: watch.energy_relative(),
@@ -269,7 +309,9 @@ impl<'a> Run<'a> {
             orthogonality_error_max: watch.orthogonality(),
             solver_residual_max: solver.residual,
             solver_iterations_max: solver.most_iterations,
-            solver_iterations_mean: solver.iterations as f64 / steps,
+            solver_iterations_mean: iterations,
+            evaluation: method.evaluation().to_string(),
+            evaluations_per_step_mean: iterations * f64::from(method.evaluations_per_iteration()),
             csv: args.out.as_ref().map(|path| path.display().to_string()),
         }
     }

@@ -1,9 +1,10 @@
 //! What a run reports at its end, as text and as JSON.
 
 use serde::Serialize;
+use study::methods::Family;
 
 use super::error::CliError;
-use super::print::decimal;
+use super::print::{self, decimal};
 
 /// The result of a run; units are in the names, or SI.
 #[derive(Clone, Debug, Serialize)]
@@ -12,13 +13,15 @@ pub struct Summary {
     pub scene: String,
     pub bodies: usize,
     pub method: &'static str,
+    pub method_description: String,
     pub method_order: u32,
     pub steps: u64,
     pub step_seconds: f64,
     pub step_asked_seconds: f64,
     pub until_seconds: f64,
     pub time_per_step_us: f64,
-    pub sample_every_steps: u64,
+    pub sample_every_steps: Option<u64>,
+    pub sample_every_seconds: Option<f64>,
     pub samples: u64,
     pub energy_initial_joules: f64,
     pub energy_error_max_relative: Option<f64>,
@@ -30,18 +33,21 @@ pub struct Summary {
     pub solver_residual_max: f64,
     pub solver_iterations_max: u32,
     pub solver_iterations_mean: f64,
+    pub evaluation: String,
+    pub evaluations_per_step_mean: f64,
     pub csv: Option<String>,
     #[serde(skip)]
+    pub family: Family,
+    #[serde(skip)]
     pub step_is_adjusted: bool,
+    #[serde(skip)]
+    pub step_is_default: bool,
 }
 
 impl Summary {
     /// One JSON object on a line.
     pub fn json(&self) -> Result<String, CliError> {
-        let mut text =
-            serde_json::to_string(self).map_err(|error| CliError::Stdout(error.into()))?;
-        text.push('\n');
-        Ok(text)
+        print::json(self)
     }
 
     /// A line for each quantity, aligned.
@@ -60,14 +66,10 @@ impl Summary {
         if let Some(title) = &self.title {
             rows.push(("scene", one_line(title)));
         }
-        let (every, samples) = (self.sample_every_steps, self.samples);
         rows.extend([
             ("file", one_line(&self.scene)),
             ("bodies", self.bodies.to_string()),
-            (
-                "method",
-                format!("{}, order {}", self.method, self.method_order),
-            ),
+            ("method", self.method()),
             ("steps", self.steps.to_string()),
             ("step size", self.step()),
             (
@@ -75,7 +77,7 @@ impl Summary {
                 format!("{} s", decimal(self.until_seconds)),
             ),
             ("time per step", format!("{:.3} us", self.time_per_step_us)),
-            ("samples", format!("{samples}, {}", frequency(every))),
+            ("samples", self.samples()),
         ]);
         if let Some(path) = &self.csv {
             rows.push(("CSV", one_line(path)));
@@ -88,7 +90,6 @@ impl Summary {
             self.linear_momentum_deviation_max,
             self.angular_momentum_deviation_max,
         );
-        let (most, mean) = (self.solver_iterations_max, self.solver_iterations_mean);
         let share = optional(self.angular_momentum_deviation_max_relative);
         vec![
             ("", String::new()),
@@ -119,35 +120,60 @@ impl Summary {
                 "orthogonality error, worst",
                 number(self.orthogonality_error_max),
             ),
-            (
-                "solver residual, largest",
-                format!(
-                    "{} (relative to the momentum)",
-                    number(self.solver_residual_max)
-                ),
-            ),
-            (
-                "solver iterations",
-                format!("{most} at most, {mean:.2} on average"),
-            ),
+            self.residual(),
+            self.iterations(),
         ]
+    }
+
+    /// What a residual is depends on how the steps are solved.
+    fn residual(&self) -> (&'static str, String) {
+        let (name, of) = match self.family {
+            Family::Gauss { .. } => ("last change of the stages, largest", "relative"),
+            _ => ("solver residual, largest", "relative to the momentum"),
+        };
+        (name, format!("{} ({of})", number(self.solver_residual_max)))
+    }
+
+    fn iterations(&self) -> (&'static str, String) {
+        let (most, mean) = (self.solver_iterations_max, self.solver_iterations_mean);
+        let count = format!("{most} at most, {mean:.2} on average");
+        match self.family {
+            Family::Gauss { stages: 1 } => ("sweeps a step", format!("{count}, over one stage")),
+            Family::Gauss { stages } => ("sweeps a step", format!("{count}, over {stages} stages")),
+            Family::Composition { substeps } => (
+                "solver iterations a step",
+                format!("{count}, in {substeps} substeps"),
+            ),
+            _ => ("solver iterations a step", count),
+        }
+    }
+
+    fn method(&self) -> String {
+        let (name, what, order) = (self.method, &self.method_description, self.method_order);
+        format!("{name}, order {order}: {what}")
+    }
+
+    fn samples(&self) -> String {
+        let every = match (self.sample_every_steps, self.sample_every_seconds) {
+            (Some(1), _) => "at every step".to_owned(),
+            (Some(steps), _) => format!("every {steps} steps"),
+            (None, Some(seconds)) => format!("every {} s", decimal(seconds)),
+            (None, None) => return self.samples.to_string(),
+        };
+        format!("{}, {every}", self.samples)
     }
 
     fn step(&self) -> String {
         let step = decimal(self.step_seconds);
-        if !self.step_is_adjusted {
-            return format!("{step} s");
-        }
         let asked = decimal(self.step_asked_seconds);
         let until = decimal(self.until_seconds);
-        format!("{step} s, not {asked} s as asked: whole steps have to end at {until} s")
-    }
-}
-
-fn frequency(every: u64) -> String {
-    match every {
-        1 => "at every step".to_owned(),
-        _ => format!("every {every} steps"),
+        let instead = match (self.step_is_adjusted, self.step_is_default) {
+            (false, true) => return format!("{step} s, the method's default"),
+            (false, false) => return format!("{step} s"),
+            (true, true) => format!("the default {asked} s"),
+            (true, false) => format!("{asked} s as asked"),
+        };
+        format!("{step} s, not {instead}: whole steps have to end at {until} s")
     }
 }
 

@@ -55,14 +55,17 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for Adjoint<L> {
         h: S,
         out: &mut Derivatives<L::Group, S>,
     ) {
-        let (end, back) = (g.compose(f), f.inverse());
-        self.0.derivatives(t + h, &end, &back, -h, out);
-        let mut d_f = f.coadjoint(&out.d_f);
-        d_f.add_scaled(-S::one(), &out.d_g);
-        let d_g = back.coadjoint(&out.d_g);
-        out.d_f = d_f;
-        out.d_g.set_zero();
-        out.d_g.add_scaled(-S::one(), &d_g);
+        let mut ends = out.take_ends(g);
+        g.compose_into(f, &mut ends.end);
+        f.inverse_into(&mut ends.back);
+        self.0.derivatives(t + h, &ends.end, &ends.back, -h, out);
+        f.coadjoint_into(&out.d_f, &mut ends.momentum);
+        ends.momentum.add_scaled(-S::one(), &out.d_g);
+        core::mem::swap(&mut out.d_f, &mut ends.momentum);
+        f.inverse_coadjoint_into(&out.d_g, &mut ends.momentum);
+        core::mem::swap(&mut out.d_g, &mut ends.momentum);
+        out.d_g.scale(-S::one());
+        out.give_ends(ends);
     }
 
     fn cyclic(&self) -> Range<usize> {
@@ -147,10 +150,18 @@ const EIGHTH: [f64; 9] = [
 /// # Ok::<(), dvi::StepError>(())
 /// ```
 pub struct Composition<L: DiscreteLagrangian, const P: u32> {
-    method: Variational<L>,
-    adjoint: Variational<Adjoint<L>>,
-    parts: Vec<f64>,
+    parts: Vec<Part<L>>,
+    steps: u64,
     before: Option<State<L::Group>>,
+}
+
+/// One part. It keeps its own integrators, whose guesses and matrices are those of its length.
+struct Part<L: DiscreteLagrangian> {
+    /// $\gamma_j$.
+    length: f64,
+    method: Variational<L>,
+    /// None where the method is its own adjoint.
+    adjoint: Option<Variational<Adjoint<L>>>,
 }
 
 impl<L: DiscreteLagrangian + Clone, const P: u32> Composition<L, P> {
@@ -164,22 +175,24 @@ impl<L: DiscreteLagrangian + Clone, const P: u32> Composition<L, P> {
         };
         let mirrored = |half: &[f64]| {
             let out = half.iter().skip(1);
-            out.clone()
-                .rev()
-                .chain(&half[..1])
-                .chain(out)
-                .copied()
-                .collect()
+            let ends = out.clone().rev().chain(&half[..1]).chain(out);
+            ends.copied().collect()
+        };
+        let lengths = match P {
+            2 => vec![1.0],
+            4 => FOURTH.to_vec(),
+            6 => mirrored(&SIXTH),
+            _ => mirrored(&EIGHTH),
+        };
+        let adjoint = || Variational::new(Adjoint(lagrangian.clone()));
+        let part = |length| Part {
+            length,
+            method: Variational::new(lagrangian.clone()),
+            adjoint: (!lagrangian.is_symmetric()).then(adjoint),
         };
         Self {
-            method: Variational::new(lagrangian.clone()),
-            adjoint: Variational::new(Adjoint(lagrangian)),
-            parts: match P {
-                2 => vec![1.0],
-                4 => FOURTH.to_vec(),
-                6 => mirrored(&SIXTH),
-                _ => mirrored(&EIGHTH),
-            },
+            parts: lengths.into_iter().map(part).collect(),
+            steps: 0,
             before: None,
         }
     }
@@ -188,8 +201,14 @@ impl<L: DiscreteLagrangian + Clone, const P: u32> Composition<L, P> {
 impl<L: DiscreteLagrangian, const P: u32> Composition<L, P> {
     /// The largest residual of the solved parts, as [`Variational::with_tolerance`].
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
-        self.method = self.method.with_tolerance(tolerance);
-        self.adjoint = self.adjoint.with_tolerance(tolerance);
+        let with = |part: Part<L>| Part {
+            method: part.method.with_tolerance(tolerance),
+            adjoint: part
+                .adjoint
+                .map(|adjoint| adjoint.with_tolerance(tolerance)),
+            ..part
+        };
+        self.parts = self.parts.into_iter().map(with).collect();
         self
     }
 
@@ -200,28 +219,39 @@ impl<L: DiscreteLagrangian, const P: u32> Composition<L, P> {
         h: f64,
         mut half: impl FnMut(Half<L>, &mut State<L::Group>, f64) -> Result<StepReport, StepError>,
     ) -> Result<StepReport, StepError> {
-        let mut before = self.before.take().unwrap_or_else(|| state.clone());
-        before.clone_from(state);
-        let symmetric = self.method.is_symmetric();
+        let same = |before: &State<L::Group>| {
+            before.g.same_shape(&state.g) && before.mu.same_shape(&state.mu)
+        };
+        let mut before = self
+            .before
+            .take()
+            .filter(same)
+            .unwrap_or_else(|| state.clone());
+        before.copy_from(state);
         let mut total = StepReport::default();
         let mut add = |report: StepReport| {
             total.iterations += report.iterations;
             total.residual = total.residual.max(report.residual);
         };
-        let solved = self.parts.iter().try_for_each(|part| {
-            if symmetric {
-                return half(Half::Method(&mut self.method), state, part * h).map(&mut add);
-            }
-            half(Half::Method(&mut self.method), state, 0.5 * part * h).map(&mut add)?;
-            half(Half::Adjoint(&mut self.adjoint), state, 0.5 * part * h).map(&mut add)
+        let solved = self.parts.iter_mut().try_for_each(|part| {
+            let (method, length) = (Half::Method(&mut part.method), part.length * h);
+            let Some(adjoint) = &mut part.adjoint else {
+                return half(method, state, length).map(&mut add);
+            };
+            half(method, state, 0.5 * length).map(&mut add)?;
+            half(Half::Adjoint(adjoint), state, 0.5 * length).map(&mut add)
         });
+        let (step, t) = (self.steps, before.t);
         match solved {
             // The parts add up to h but for rounding.
-            Ok(()) => state.t = before.t + h,
-            Err(_) => state.clone_from(&before),
+            Ok(()) => state.t = t + h,
+            Err(_) => state.copy_from(&before),
         }
+        self.steps += u64::from(solved.is_ok());
         self.before = Some(before);
-        solved.map(|()| total)
+        solved
+            .map(|()| total)
+            .map_err(|error| error.of_whole(step, t, h))
     }
 }
 
@@ -243,7 +273,7 @@ impl<L: DiscreteLagrangian, const P: u32> Integrator for Composition<L, P> {
     }
 
     fn is_symplectic(&self) -> bool {
-        self.method.is_symplectic()
+        self.parts.iter().all(|part| part.method.is_symplectic())
     }
 
     fn step(&mut self, state: &mut State<L::Group>, h: f64) -> Result<StepReport, StepError> {

@@ -146,6 +146,16 @@ pub struct Derivatives<G: RealGroup, S: Scalar> {
     /// $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$: the derivative along $g \exp(\eta)$ at $\eta = 0$.
     pub d_g: DualOver<G, S>,
     lifted: Option<Lifted<G, S>>,
+    ends: Option<Ends<G, S>>,
+}
+
+/// Storage for a step seen from its other end.
+pub(crate) struct Ends<G: RealGroup, S: Scalar> {
+    /// $g f$.
+    pub(crate) end: Over<G, S>,
+    /// $f^{-1}$.
+    pub(crate) back: Over<G, S>,
+    pub(crate) momentum: DualOver<G, S>,
 }
 
 impl<G: RealGroup, S: Scalar> Debug for Derivatives<G, S> {
@@ -164,7 +174,21 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
             d_f: g.zero_dual(),
             d_g: g.zero_dual(),
             lifted: None,
+            ends: None,
         }
+    }
+
+    /// The storage for the other end, to be [given back](Self::give_ends): the derivatives are borrowed meanwhile.
+    pub(crate) fn take_ends(&mut self, g: &Over<G, S>) -> Ends<G, S> {
+        self.ends.take().unwrap_or_else(|| Ends {
+            end: g.clone(),
+            back: g.clone(),
+            momentum: g.zero_dual(),
+        })
+    }
+
+    pub(crate) fn give_ends(&mut self, ends: Ends<G, S>) {
+        self.ends = Some(ends);
     }
 
     /// Fills both from the value alone, by dual numbers seeded at the identity of $f \exp\zeta$ and $g \exp\eta$.
@@ -176,7 +200,9 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         f: &Over<G, S>,
         h: S,
     ) {
-        let Self { d_f, d_g, lifted } = self;
+        let Self {
+            d_f, d_g, lifted, ..
+        } = self;
         let lifted = lifted.get_or_insert_with(|| Lifted::new(g));
         let (t, h) = (S::Jet::constant(t), S::Jet::constant(h));
         lifted.set(g, f);

@@ -62,7 +62,7 @@ pub enum StepError {
     },
     /// The state, the model or the state after the step has a number that is not finite.
     #[error(
-        "step {step} at t = {t} s: a number is not finite: in the state, in the discrete Lagrangian's derivatives at it, or in the state after a step of {h} s; check the initial state, the model's parameters and the step"
+        "step {step} at t = {t} s: a number is not finite: in the state, in the velocity or the derivatives at it, or in the state after a step of {h} s; check the initial state, the model's parameters (an inertia that is singular gives no velocity) and the step"
     )]
     NotFinite {
         /// Steps that this integrator has taken before.
@@ -72,6 +72,44 @@ pub enum StepError {
         /// Step size, in seconds.
         h: f64,
     },
+}
+
+impl StepError {
+    /// The refusal of a part, told of the whole step of size `h` from `t` that it is a part of.
+    pub(crate) fn of_whole(self, step: u64, t: f64, h: f64) -> Self {
+        match self {
+            Self::NotConverged {
+                h: part,
+                residual,
+                iterations,
+                hint,
+                ..
+            } => Self::NotConverged {
+                step,
+                t,
+                h,
+                residual,
+                iterations,
+                hint: match hint {
+                    Hint::SmallerStep { h: smaller } => Hint::SmallerStep {
+                        h: h * (smaller / part).abs(),
+                    },
+                    hint => hint,
+                },
+            },
+            Self::InvalidStep { .. } => Self::InvalidStep { step, t, h },
+            Self::Misfit { .. } => Self::Misfit { step, t },
+            Self::Shape {
+                expected, found, ..
+            } => Self::Shape {
+                step,
+                t,
+                expected,
+                found,
+            },
+            Self::NotFinite { .. } => Self::NotFinite { step, t, h },
+        }
+    }
 }
 
 /// What to try after a step that did not converge.
@@ -88,6 +126,8 @@ pub enum Hint {
         /// A relative tolerance to try.
         tolerance: f64,
     },
+    /// The balance hardly depends on some direction of the displacement: no inertia there.
+    Degenerate,
 }
 
 impl core::fmt::Display for Hint {
@@ -99,6 +139,10 @@ impl core::fmt::Display for Hint {
             Self::LooserTolerance { tolerance } => write!(
                 f,
                 "rounding reaches no further: try a tolerance of {tolerance:.0e}, or another step"
+            ),
+            Self::Degenerate => write!(
+                f,
+                "its matrix is singular: give the kinetic energy an inertia in every direction of the velocity"
             ),
         }
     }

@@ -58,6 +58,21 @@ impl Factorisation {
         );
     }
 
+    /// Whether a pivot is rounding beside its row, or not a number.
+    pub(crate) fn is_singular(&self) -> bool {
+        /// Roundings that elimination may leave in place of a zero.
+        const ROUNDING: f64 = 100.0 * f64::EPSILON;
+        let n = self.rhs.len();
+        let largest = |row: usize| {
+            let sizes = (0..n).map(|column| self.matrix[(self.forward[row], column)].abs());
+            sizes.fold(0.0, f64::max)
+        };
+        (0..n).any(|i| {
+            self.factors[(i, i)].abs().is_nan()
+                || self.factors[(i, i)].abs() <= ROUNDING * largest(i)
+        })
+    }
+
     pub(crate) fn right_hand_side(&mut self) -> &mut [f64] {
         &mut self.rhs
     }

@@ -8,7 +8,7 @@ use crate::balance::Balance;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
 use crate::solver::{Algebra, Dual, StepSolver};
-use crate::{DiscreteLagrangian, State};
+use crate::{Derivatives, DiscreteLagrangian, State};
 
 type J = <f64 as Scalar>::Jet;
 
@@ -121,4 +121,31 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
         delta.scale(self.scale);
         true
     }
+}
+
+/// Whether $L_d$ has no inertia in some direction: $\mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ is singular at $f = e$.
+pub(crate) fn is_degenerate<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    state: &State<L::Group>,
+    h: f64,
+) -> bool {
+    let g = state.g.lift::<J>();
+    let (mut c, mut f) = (g.zero_algebra(), g.clone());
+    let mut derivatives = Derivatives::new(&g);
+    let dim = c.dim();
+    let mut inertia = Factorisation::new(dim);
+    let (t, h) = (J::constant(state.t), J::constant(h));
+    for_each_chunk(dim, |first| {
+        lie::seed(&mut c, first);
+        Over::<L::Group, J>::cayley_into(&c, &mut f);
+        lagrangian.derivatives(t, &g, &f, h, &mut derivatives);
+        for column in first..dim.min(first + lie::JET_DIRECTIONS) {
+            for row in 0..dim {
+                let entry = derivatives.d_f.get(row).partial(column - first);
+                inertia.set(row, column, entry);
+            }
+        }
+    });
+    inertia.factorise();
+    inertia.is_singular()
 }

@@ -1,6 +1,6 @@
 //! What a trajectory is made of between steps.
 
-use lie::RealGroup;
+use lie::{RealGroup, VectorSpace};
 
 /// Time, configuration and left-trivialised momentum: *the* state between steps.
 ///
@@ -21,6 +21,16 @@ pub struct State<G: RealGroup> {
     pub g: G,
     /// Left-trivialised momentum $\mu_k \in \mathfrak g^\ast$.
     pub mu: G::Dual,
+}
+
+impl<G: RealGroup> State<G> {
+    /// Sets this state to another of the same shape, in place.
+    #[inline(always)]
+    pub(crate) fn copy_from(&mut self, state: &Self) {
+        self.t = state.t;
+        self.g.copy_from(&state.g);
+        self.mu.copy_from(&state.mu);
+    }
 }
 
 /// The state of the Lagrangian form: a configuration and the displacement to the next one.

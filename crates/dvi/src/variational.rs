@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 use lie::{Cayley, LieGroup, Retraction, VectorSpace};
 
 use crate::balance::Balance;
+use crate::newton::is_degenerate;
 use crate::solver::{Algebra, StepSolver};
 use crate::variation::Linearised;
 use crate::warm_start::WarmStart;
@@ -269,13 +270,19 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         }
         if !solved.converged {
             work.forget();
-            return Err(failure(step, t, h, tolerance, &solved));
+            let degenerate = solved.started && is_degenerate(lagrangian, state, h);
+            return Err(failure((step, t, h), tolerance, &solved, degenerate));
         }
         Ok(solved.report)
     }
 }
 
-fn failure(step: u64, t: f64, h: f64, tolerance: f64, solved: &Solved) -> StepError {
+fn failure(
+    (step, t, h): (u64, f64, f64),
+    tolerance: f64,
+    solved: &Solved,
+    degenerate: bool,
+) -> StepError {
     let StepReport {
         iterations,
         residual,
@@ -283,7 +290,9 @@ fn failure(step: u64, t: f64, h: f64, tolerance: f64, solved: &Solved) -> StepEr
     if !solved.started {
         return StepError::NotFinite { step, t, h };
     }
-    let hint = if residual < ROUNDING.max(1e3 * tolerance) {
+    let hint = if degenerate {
+        Hint::Degenerate
+    } else if residual < ROUNDING.max(1e3 * tolerance) {
         Hint::LooserTolerance {
             tolerance: 2.0 * residual,
         }

@@ -226,6 +226,12 @@ pub trait LieGroup: Clone + Debug + PartialEq {
         *out = Self::cayley(xi);
     }
 
+    /// [`inverse`](Self::inverse) into `out`.
+    #[inline(always)]
+    fn inverse_into(&self, out: &mut Self) {
+        *out = self.inverse();
+    }
+
     /// $\mathrm{Ad}^\ast\_{g^{-1}} \mu$ into `out`: from the frame of $g$ to the frame of the identity.
     #[inline(always)]
     fn inverse_coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
@@ -310,6 +316,12 @@ pub trait RealGroup: LieGroup<Scalar = f64, WithScalar<f64> = Self> {
     /// ```
     fn lift<S: Scalar>(&self) -> Over<Self, S> {
         Self::convert(self, S::from_f64)
+    }
+
+    /// Sets this element to another of the same shape, in place.
+    #[inline(always)]
+    fn copy_from(&mut self, g: &Self) {
+        Self::convert_into::<f64, f64>(g, |x| x, self);
     }
 }
 

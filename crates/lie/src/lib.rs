@@ -77,6 +77,7 @@ mod convert_nalgebra;
 mod dense;
 mod error;
 mod group;
+mod kahan;
 pub mod laws;
 mod matrix;
 mod plane;

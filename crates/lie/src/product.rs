@@ -88,6 +88,10 @@ macro_rules! tuple {
                 $(self.$i.set_zero();)+
             }
             #[inline(always)]
+            fn copy_from(&mut self, y: &Self) {
+                $(self.$i.copy_from(&y.$i);)+
+            }
+            #[inline(always)]
             fn scale(&mut self, a: S) {
                 $(self.$i.scale(a);)+
             }
@@ -247,6 +251,10 @@ macro_rules! tuple {
                 $(self.$i.coadjoint_into(&mu.$i, &mut out.$i);)+
             }
             #[inline(always)]
+            fn inverse_into(&self, out: &mut Self) {
+                $(self.$i.inverse_into(&mut out.$i);)+
+            }
+            #[inline(always)]
             fn inverse_coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
                 $(self.$i.inverse_coadjoint_into(&mu.$i, &mut out.$i);)+
             }
@@ -359,6 +367,10 @@ macro_rules! repeated {
             #[inline(always)]
             fn set_zero(&mut self) {
                 self.iter_mut().for_each(VectorSpace::set_zero);
+            }
+            #[inline(always)]
+            fn copy_from(&mut self, y: &Self) {
+                self.iter_mut().zip(y.iter()).for_each(|(x, y)| x.copy_from(y));
             }
             #[inline(always)]
             fn scale(&mut self, a: $G::Scalar) {
@@ -531,6 +543,10 @@ macro_rules! repeated {
                 for ((g, mu), out) in self.iter().zip(mu.iter()).zip(out.iter_mut()) {
                     g.coadjoint_into(mu, out);
                 }
+            }
+            #[inline(always)]
+            fn inverse_into(&self, out: &mut Self) {
+                self.iter().zip(out.iter_mut()).for_each(|(g, out)| g.inverse_into(out));
             }
             #[inline(always)]
             fn inverse_coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {

@@ -1,5 +1,6 @@
 //! $\mathbb{R}^n$ under addition.
 
+use crate::kahan;
 use crate::{Cotangent, LieGroup, NotUnique, Over, Scalar, Tangent, Vec3};
 
 /// A vector of $\mathbb{R}^n$, the group operation being addition.
@@ -110,10 +111,7 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         for i in 0..N {
-            let wanted = f.0[i] + carry.0[i];
-            let sum = self.0[i] + wanted;
-            carry.0[i] = wanted - (sum - self.0[i]);
-            self.0[i] = sum;
+            kahan::add(&mut self.0[i], f.0[i], &mut carry.0[i]);
         }
     }
 

@@ -1,5 +1,6 @@
 //! SE(2): rigid displacements of the plane.
 
+use crate::kahan;
 use crate::plane::{add, cross, dot, scale, turn};
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
 use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO2, Scalar, Tangent};
@@ -319,6 +320,21 @@ impl<S: Scalar> LieGroup for SE2<S> {
         let w = self.rotation.cayley_of_root();
         let translation = scale(S::from_f64(0.5), half_turned(-w, self.translation));
         Self::new(self.rotation.sqrt(), translation)
+    }
+
+    #[inline(always)]
+    fn zero_carry(&self) -> Self {
+        Self::new(self.rotation.zero_carry(), [S::zero(); 2])
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, f: &Self, carry: &mut Self) {
+        let increment = self.rotation.rotate(f.translation);
+        let sums = self.translation.iter_mut().zip(&mut carry.translation);
+        for ((x, carry), increment) in sums.zip(increment) {
+            kahan::add(x, increment, carry);
+        }
+        self.rotation.advance(&f.rotation, &mut carry.rotation);
     }
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! SE(3): rigid displacements of space.
 
+use crate::kahan;
 use crate::stumpff::{stumpff, stumpff_next};
 use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO3, Scalar, Tangent, Vec3};
 
@@ -348,10 +349,11 @@ impl<S: Scalar> LieGroup for SE3<S> {
 
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
-        let wanted = self.rotation.rotate(f.translation) + carry.translation;
-        let sum = self.translation + wanted;
-        carry.translation = wanted - (sum - self.translation);
-        self.translation = sum;
+        let increment = self.rotation.rotate(f.translation);
+        for i in 0..3 {
+            let (x, carry) = (&mut self.translation[i], &mut carry.translation[i]);
+            kahan::add(x, increment[i], carry);
+        }
         self.rotation.advance(&f.rotation, &mut carry.rotation);
     }
 

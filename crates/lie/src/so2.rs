@@ -1,5 +1,6 @@
 //! SO(2): rotations of the plane.
 
+use crate::kahan;
 use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, Scalar, Tangent};
 
 /// A rotation of the plane, held as $(\cos\theta, \sin\theta)$.
@@ -300,6 +301,18 @@ impl<S: Scalar> LieGroup for SO2<S> {
             S::select(obtuse, far_cos, large),
             S::select(obtuse, far_sin, small),
         )
+    }
+
+    #[inline(always)]
+    fn zero_carry(&self) -> Self {
+        Self::from_cos_sin_unchecked(S::zero(), S::zero())
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, f: &Self, carry: &mut Self) {
+        let (c, s, less) = (self.cos, self.sin, f.cos_minus_one());
+        kahan::add(&mut self.cos, c * less - s * f.sin, &mut carry.cos);
+        kahan::add(&mut self.sin, s * less + c * f.sin, &mut carry.sin);
     }
 
     /// One Newton step for the unit length, $z \leftarrow \frac12 z (3 - |z|^2)$.

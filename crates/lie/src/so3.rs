@@ -1,5 +1,6 @@
 //! SO(3): rotations of space.
 
+use crate::kahan;
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
 use crate::{
     Cotangent, LieGroup, Mat3, NotARotation, NotUnique, OutsideChart, Over, Scalar, Tangent, Vec3,
@@ -142,15 +143,6 @@ impl<S: Scalar> SO3<S> {
         let sum = (self.matrix + self.matrix.transpose()) * S::from_f64(0.5);
         let far = sum - Mat3::identity();
         Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| S::select(moderate, near[(i, j)], far[(i, j)]))))
-    }
-
-    /// Kahan's sum, entry by entry.
-    #[inline(always)]
-    fn add_compensated(&mut self, increment: Mat3<S>, carry: &mut Self) {
-        let wanted = increment + carry.matrix;
-        let sum = self.matrix + wanted;
-        carry.matrix = wanted - (sum - self.matrix);
-        self.matrix = sum;
     }
 
     /// $\lVert I - R^T R \rVert_F$.
@@ -388,7 +380,10 @@ impl<S: Scalar> LieGroup for SO3<S> {
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         let increment = self.matrix * f.minus_identity();
-        self.add_compensated(increment, carry);
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let (entry, carry) = (&mut self.matrix[(i, j)], &mut carry.matrix[(i, j)]);
+            kahan::add(entry, increment[(i, j)], carry);
+        }
     }
 
     /// One Newton–Schulz step of the polar decomposition, $R \leftarrow \frac12 R (3 I - R^T R)$.

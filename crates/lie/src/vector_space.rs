@@ -47,6 +47,14 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
         }
     }
 
+    /// $x \leftarrow y$, in place; `clone_from` of a tuple would allocate where a factor does.
+    #[inline(always)]
+    fn copy_from(&mut self, y: &Self) {
+        for i in 0..self.dim() {
+            self.set(i, y.get(i));
+        }
+    }
+
     /// $x \leftarrow a x$.
     #[inline(always)]
     fn scale(&mut self, a: Self::Scalar) {

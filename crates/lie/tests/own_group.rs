@@ -2,8 +2,8 @@
 
 use lie::laws::{self, LawError};
 use lie::{
-    Cotangent, LieGroup, NotUnique, OutsideChart, Over, SE3, SO3, Scalar, Tangent, Vec3,
-    VectorSpace,
+    Cotangent, LieGroup, NotUnique, OutsideChart, Over, Retraction, SE3, SO3, Scalar, Tangent,
+    Vec3, VectorSpace,
 };
 
 /// The Heisenberg group of upper triangular 3×3 matrices with ones on the diagonal, by its entries.
@@ -129,6 +129,11 @@ const CAYLEY_DUAL_DIFFERENTIAL: u8 = 29;
 const CAYLEY_DUAL_INVERSE: u8 = 30;
 const GRADIENT: u8 = 31;
 const CAYLEY_GRADIENT: u8 = 32;
+const INVERSE_INTO: u8 = 33;
+const INVERSE_COADJOINT_INTO: u8 = 34;
+const ADVANCE_BESIDE: u8 = 35;
+const CHART_END: u8 = 36;
+const CHART_RATES: u8 = 37;
 /// Mistakes of the algebra from here on, those of the dual from [`DUAL`] on.
 const ALGEBRA: u8 = 40;
 const DUAL: u8 = 60;
@@ -139,6 +144,7 @@ const ADD_SCALED: u8 = 3;
 const SET_SUM: u8 = 4;
 const NORM: u8 = 5;
 const MAX: u8 = 6;
+const SCALE: u8 = 7;
 
 /// A vector space by its coordinates, with the mistake `M - $first`.
 macro_rules! mistaken_vectors {
@@ -167,6 +173,11 @@ macro_rules! mistaken_vectors {
             fn set_zero(&mut self) {
                 if M != $first + SET_ZERO {
                     self.0.set_zero();
+                }
+            }
+            fn scale(&mut self, a: S) {
+                if M != $first + SCALE {
+                    self.0.scale(a);
                 }
             }
             fn add_scaled(&mut self, a: S, y: &Self) {
@@ -361,6 +372,49 @@ impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
             _ => SE3::dexp_inv_gradient(&xi.0, &mu.0, &eta.0),
         })
     }
+    fn inverse_into(&self, out: &mut Self) {
+        if M != INVERSE_INTO {
+            *out = self.inverse();
+        }
+    }
+    fn inverse_coadjoint_into(&self, mu: &Wrench<M, S>, out: &mut Wrench<M, S>) {
+        *out = match M {
+            INVERSE_COADJOINT_INTO => self.coadjoint(mu),
+            _ => self.inverse().coadjoint(mu),
+        };
+    }
+    fn advance(&mut self, f: &Self, carry: &mut Self) {
+        self.0.advance(&f.0, &mut carry.0);
+        if M == ADVANCE_BESIDE {
+            self.0.translation += Vec3([S::from_f64(1e-9); 3]);
+        }
+    }
+    fn zero_carry(&self) -> Self {
+        Self(self.0.zero_carry())
+    }
+    fn chart_leave_into<R: Retraction>(
+        c: &Twist<M, S>,
+        momentum: &Wrench<M, S>,
+        (f, mu, pi): (&mut Self, &mut Wrench<M, S>, &mut Wrench<M, S>),
+    ) {
+        R::retract_into::<Self>(c, f);
+        *mu = f.coadjoint(momentum);
+        *pi = match M {
+            CHART_END => R::d_left_inv_dual::<Self>(c, mu),
+            _ => R::d_left_dual::<Self>(c, mu),
+        };
+    }
+    fn chart_rates_into<R: Retraction>(
+        (c, pi, f): (&Twist<M, S>, &Wrench<M, S>, &Self),
+        (xi, tau): (&Twist<M, S>, &Wrench<M, S>),
+        (c_dot, pi_dot, force): (&mut Twist<M, S>, &mut Wrench<M, S>, &mut Wrench<M, S>),
+    ) {
+        *c_dot = R::d_left_inv::<Self>(c, xi);
+        *pi_dot = R::d_left_dual::<Self>(c, tau);
+        let sign = S::from_f64(if M == CHART_RATES { 1.0 } else { -1.0 });
+        pi_dot.add_scaled(sign, &R::d_left_inv_gradient::<Self>(c, pi, xi));
+        *force = f.inverse().coadjoint(tau);
+    }
     fn sqrt(&self) -> Self {
         Self(match M {
             ROOT_NOT => self.0,
@@ -508,10 +562,23 @@ fn mistakes_in_the_gradients_are_caught_and_named() {
 }
 
 #[test]
+fn mistakes_in_the_charts_are_caught_and_named() {
+    let law = "inverse_coadjoint_into = Ad*_(g^-1)";
+    assert_eq!(broken_law::<INVERSE_COADJOINT_INTO>(), law);
+    let law = "advance by exp(xi/n), n times = g exp(xi)";
+    assert_eq!(broken_law::<ADVANCE_BESIDE>(), law);
+    let law = "chart_leave_into: pi = (dtau_c)* mu";
+    assert_eq!(broken_law::<CHART_END>(), law);
+    let law = "chart_rates_into: pi' = (dtau_c)* tau - d/dc <pi, dtau^-1_c xi>";
+    assert_eq!(broken_law::<CHART_RATES>(), law);
+}
+
+#[test]
 fn methods_that_write_nothing_are_caught_and_named() {
     assert_eq!(broken_law::<CONVERT_INTO>(), "convert_into = convert");
     assert_eq!(broken_law::<COMPOSE_INTO>(), "compose_into = compose");
     assert_eq!(broken_law::<COADJOINT_INTO>(), "coadjoint_into = coadjoint");
+    assert_eq!(broken_law::<INVERSE_INTO>(), "inverse_into = inverse");
     assert_eq!(broken_law::<EXP_INTO>(), "exp_into = exp");
     assert_eq!(broken_law::<CAYLEY_INTO>(), "cayley_into = cayley");
 }
@@ -523,6 +590,7 @@ macro_rules! vector_mistakes_are_caught {
             assert_eq!(broken_law::<{ $first + WRITE }>(), "write(x)_i = x_i");
             assert_eq!(broken_law::<{ $first + READ }>(), "read(write(x)) = x");
             assert_eq!(broken_law::<{ $first + SET_ZERO }>(), "set_zero = 0");
+            assert_eq!(broken_law::<{ $first + SCALE }>(), "scale: a x");
             let law = "add_scaled: x + a y";
             assert_eq!(broken_law::<{ $first + ADD_SCALED }>(), law);
             assert_eq!(broken_law::<{ $first + SET_SUM }>(), "set_sum = x + a y");

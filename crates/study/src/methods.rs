@@ -126,82 +126,68 @@ pub struct UnknownMethod {
 }
 
 fn names() -> String {
-    Method::all().map(Method::name).collect::<Vec<_>>().join(", ")
+    Method::all()
+        .map(Method::name)
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// What is known of a method but for its construction.
 struct Entry {
     method: Method,
     name: &'static str,
-    description: &'static str,
-    family: Family,
     order: u32,
+    family: Family,
     /// s.
     default_step: f64,
     evaluations_per_step: u32,
 }
 
-const fn gauss(method: Method, name: &'static str, stages: u32, typical: (f64, u32)) -> Entry {
-    Entry {
-        method,
-        name,
-        description: "variational Gauss collocation of the continuous Lagrangian",
-        family: Family::Gauss { stages },
-        order: 2 * stages,
-        default_step: typical.0,
-        evaluations_per_step: typical.1,
-    }
-}
-
-const fn composition(
+/// The last are the default step in seconds and the evaluations in it.
+const fn entry(
     method: Method,
     name: &'static str,
-    (order, substeps): (u32, u32),
-    typical: (f64, u32),
+    order: u32,
+    family: Family,
+    (default_step, evaluations_per_step): (f64, u32),
 ) -> Entry {
     Entry {
         method,
         name,
-        description: "symmetric composition of lgvi and lgvi-adjoint",
-        family: Family::Composition { substeps },
         order,
-        default_step: typical.0,
-        evaluations_per_step: typical.1,
+        family,
+        default_step,
+        evaluations_per_step,
     }
 }
 
+const VARIATIONAL: Family = Family::Variational;
+
+const fn composition(substeps: u32) -> Family {
+    Family::Composition { substeps }
+}
+
+const fn gauss(stages: u32) -> Family {
+    Family::Gauss { stages }
+}
+
 /// In the order of [`Method`]'s variants.
+#[rustfmt::skip]
 const TABLE: [Entry; 14] = [
-    Entry {
-        method: Method::Lgvi,
-        name: "lgvi",
-        description: "Lie group variational integrator of Lee, Leok & McClamroch (2009)",
-        family: Family::Variational,
-        order: 1,
-        default_step: 0.001,
-        evaluations_per_step: 3,
-    },
-    Entry {
-        method: Method::LgviAdjoint,
-        name: "lgvi-adjoint",
-        description: "adjoint of lgvi: its couplings are taken at the step's end",
-        family: Family::Variational,
-        order: 1,
-        default_step: 0.001,
-        evaluations_per_step: 3,
-    },
-    composition(Method::Composition2, "composition-2", (2, 2), (0.01, 8)),
-    composition(Method::Composition4, "composition-4", (4, 10), (0.05, 60)),
-    composition(Method::Composition6, "composition-6", (6, 18), (0.1, 110)),
-    composition(Method::Composition8, "composition-8", (8, 34), (0.2, 210)),
-    gauss(Method::Gauss1, "gauss-1", 1, (0.01, 7)),
-    gauss(Method::Gauss2, "gauss-2", 2, (0.05, 16)),
-    gauss(Method::Gauss3, "gauss-3", 3, (0.1, 27)),
-    gauss(Method::Gauss4, "gauss-4", 4, (0.1, 36)),
-    gauss(Method::Gauss5, "gauss-5", 5, (0.2, 50)),
-    gauss(Method::Gauss6, "gauss-6", 6, (0.2, 60)),
-    gauss(Method::Gauss7, "gauss-7", 7, (0.25, 70)),
-    gauss(Method::Gauss8, "gauss-8", 8, (0.25, 90)),
+    entry(Method::Lgvi,          "lgvi",            1, VARIATIONAL,      (0.001, 2)),
+    entry(Method::LgviAdjoint,   "lgvi-adjoint",    1, VARIATIONAL,      (0.001, 6)),
+    entry(Method::Composition2,  "composition-2",   2, composition(2),   (0.01, 19)),
+    entry(Method::Composition4,  "composition-4",   4, composition(10),  (0.05, 120)),
+    entry(Method::Composition6,  "composition-6",   6, composition(18),  (0.1, 200)),
+    entry(Method::Composition8,  "composition-8",   8, composition(34),  (0.1, 380)),
+    entry(Method::Gauss1,        "gauss-1",         2, gauss(1),         (0.01, 13)),
+    entry(Method::Gauss2,        "gauss-2",         4, gauss(2),         (0.05, 37)),
+    entry(Method::Gauss3,        "gauss-3",         6, gauss(3),         (0.1, 68)),
+    entry(Method::Gauss4,        "gauss-4",         8, gauss(4),         (0.1, 72)),
+    entry(Method::Gauss5,        "gauss-5",        10, gauss(5),         (0.2, 140)),
+    entry(Method::Gauss6,        "gauss-6",        12, gauss(6),         (0.2, 130)),
+    entry(Method::Gauss7,        "gauss-7",        14, gauss(7),         (0.2, 120)),
+    entry(Method::Gauss8,        "gauss-8",        16, gauss(8),         (0.25, 160)),
 ];
 
 const _: () = {
@@ -228,8 +214,18 @@ impl Method {
     }
 
     /// What it is, in a line.
-    pub fn description(self) -> &'static str {
-        self.entry().description
+    pub fn description(self) -> String {
+        match self.family() {
+            Family::Variational if self == Self::Lgvi => {
+                "the integrator of Lee, Leok & McClamroch (2009)".to_owned()
+            }
+            Family::Variational => "adjoint of lgvi: it looks at the end of a step".to_owned(),
+            Family::Composition { substeps } => {
+                format!("symmetric composition of lgvi and its adjoint, {substeps} substeps")
+            }
+            Family::Gauss { stages: 1 } => "variational Gauss collocation, 1 stage".to_owned(),
+            Family::Gauss { stages } => format!("variational Gauss collocation, {stages} stages"),
+        }
     }
 
     /// How it makes a step.
@@ -273,6 +269,14 @@ impl Method {
         match self.family() {
             Family::Gauss { .. } => Evaluation::VelocityAndForce,
             _ => Evaluation::DiscreteDerivatives,
+        }
+    }
+
+    /// How many [evaluations](Self::evaluation) an iteration of a [step's report](dvi::StepReport) stands for.
+    pub fn evaluations_per_iteration(self) -> u32 {
+        match self.family() {
+            Family::Gauss { stages } => stages,
+            _ => 1,
         }
     }
 

@@ -72,12 +72,18 @@ pub struct Gauss<C: ContinuousSystem, const S: usize, R = Cayley> {
     retraction: PhantomData<R>,
 }
 
+type Dual<C> = <<C as ContinuousSystem>::Group as LieGroup>::Dual;
+
 /// Storage of the steps.
 struct Work<C: ContinuousSystem> {
     sweep: Sweep<C, f64>,
     last: solve::Last<C::Group>,
     predictor: Predictor<C::Group>,
     update: Update<C::Group>,
+    /// $\pi_0$ of the stages, what their end asks it to be, and its difference from $\mu_k$ in the last step.
+    start: Dual<C>,
+    wanted: Dual<C>,
+    drift: Dual<C>,
     /// Made when first needed.
     newton: Option<SweepNewton<C>>,
     linearised: Option<SweepNewton<C>>,
@@ -93,6 +99,9 @@ impl<C: ContinuousSystem> Work<C> {
             last: solve::Last::new(stages, g),
             predictor: Predictor::new(stages, g),
             update: Update::new(g),
+            start: g.zero_dual(),
+            wanted: g.zero_dual(),
+            drift: g.zero_dual(),
             newton: None,
             linearised: None,
             long_steps: 0,
@@ -150,16 +159,6 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
         if !self.system.fits(&state.g) {
             return Err(StepError::Misfit { step, t });
         }
-        let dual = state.g.zero_dual();
-        if !dual.same_shape(&state.mu) {
-            let (expected, found) = (dual.dim(), state.mu.dim());
-            return Err(StepError::Shape {
-                step,
-                t,
-                expected,
-                found,
-            });
-        }
         let finite = t.is_finite() && state.g.is_finite() && state.mu.max_magnitude().is_finite();
         finite
             .then_some(())
@@ -170,11 +169,21 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
     fn solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, StepError> {
         self.check(state, h)?;
         let (system, tableau) = (&self.system, &self.tableau);
-        let fits = |work: &Box<Work<C>>| work.shape.same_shape(&state.g);
-        let work = self.work.take().filter(fits);
-        let work = self
-            .work
-            .insert(work.unwrap_or_else(|| Box::new(Work::new(system, S, &state.g))));
+        let work = match self.work.take() {
+            Some(work) if work.shape.same_shape(&state.g) => work,
+            _ => Box::new(Work::new(system, S, &state.g)),
+        };
+        let work = self.work.insert(work);
+        let (step, t, shape) = (self.steps, state.t, &work.start);
+        if !shape.same_shape(&state.mu) {
+            let (expected, found) = (shape.dim(), state.mu.dim());
+            return Err(StepError::Shape {
+                step,
+                t,
+                expected,
+                found,
+            });
+        }
         let solved = work.solve::<R>((system, tableau), (state, h), self.tolerance);
         solved.map_err(|failure| match failure {
             Failure::NotFinite => StepError::NotFinite {
@@ -204,10 +213,13 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
             sweep,
             update,
             predictor,
+            start,
+            drift,
             ..
         } = &mut **work;
+        drift.set_sum(start, -1.0, &state.mu);
         let next = update.advance(state, h, &sweep.f, &sweep.impulse);
-        state.clone_from(next.ok_or(refused)?);
+        state.copy_from(next.ok_or(refused)?);
         predictor.record(h, sweep);
         self.steps += 1;
         Ok(())
@@ -242,7 +254,7 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Integrator for Gauss<C,
         ahead.t += h;
         if let Some(work) = &self.work {
             ahead.g = state.g.compose(&work.sweep.f);
-            ahead.mu.clone_from(&work.sweep.mu);
+            ahead.mu.copy_from(&work.sweep.mu);
         }
         Ok(ahead)
     }

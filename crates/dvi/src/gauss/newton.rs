@@ -14,10 +14,12 @@ type J = <f64 as Scalar>::Jet;
 /// $X = \Phi(X; g, \mu)$. Holds $1 - \Phi'$, from dual numbers.
 pub(super) struct SweepNewton<C: ContinuousSystem> {
     matrix: Factorisation,
+    /// The step size of the matrix; zero where there is none.
+    h: f64,
     /// The iterate.
     pub(super) x: Vec<f64>,
     /// $X - \Phi(X)$, then the correction.
-    pub(super) correction: Vec<f64>,
+    correction: Vec<f64>,
     sweep: Sweep<C, J>,
     unknowns: Vec<J>,
     g: Over<C::Group, J>,
@@ -54,6 +56,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         let lifted = g.lift::<J>();
         Self {
             matrix: Factorisation::new(dim),
+            h: 0.0,
             x: vec![0.0; dim],
             correction: vec![0.0; dim],
             sweep: Sweep::new(system, stages, &lifted),
@@ -63,8 +66,45 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         }
     }
 
+    /// Whether there is a matrix for steps of size `h`.
+    pub(super) fn fits(&self, h: f64) -> bool {
+        self.h == h
+    }
+
+    pub(super) fn forget(&mut self) {
+        self.h = 0.0;
+    }
+
+    /// The Newton correction at the iterate, whose image the sweep has found.
+    pub(super) fn linearise(&mut self, image: &Sweep<C, f64>) {
+        write(image, &mut self.correction);
+        for (entry, x) in self.correction.iter_mut().zip(&self.x) {
+            *entry = x - *entry;
+        }
+        self.solve();
+    }
+
+    /// Moves the iterate by a part of the correction.
+    pub(super) fn correct(&mut self, part: f64) {
+        for (x, delta) in self.x.iter_mut().zip(&self.correction) {
+            *x -= part * delta;
+        }
+    }
+
+    /// Factorises $1 - \Phi'$ at the iterate.
+    pub(super) fn renew_at<R: Retraction>(
+        &mut self,
+        method: (&C, &Tableau),
+        state: &State<C::Group>,
+        h: f64,
+    ) {
+        let x = core::mem::take(&mut self.x);
+        self.renew::<R>(method, state, h, &x);
+        self.x = x;
+    }
+
     /// Factorises $1 - \Phi'$ at `x`.
-    pub(super) fn renew<R: Retraction>(
+    fn renew<R: Retraction>(
         &mut self,
         (system, tableau): (&C, &Tableau),
         state: &State<C::Group>,
@@ -90,6 +130,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             }
         }
         self.matrix.factorise();
+        self.h = h;
     }
 
     fn set_state(&mut self, state: &State<C::Group>) {
@@ -109,7 +150,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     }
 
     /// Solves $(1 - \Phi') \delta = $ `correction`, in place.
-    pub(super) fn solve(&mut self) {
+    fn solve(&mut self) {
         self.matrix
             .right_hand_side()
             .copy_from_slice(&self.correction);

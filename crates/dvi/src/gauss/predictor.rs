@@ -45,8 +45,8 @@ impl<G: RealGroup> Predictor<G> {
     {
         self.h = h;
         for (i, stage) in sweep.stages.iter().enumerate() {
-            self.xi[i].clone_from(&stage.xi);
-            self.tau[i].clone_from(&stage.tau);
+            self.xi[i].copy_from(&stage.xi);
+            self.tau[i].copy_from(&stage.tau);
         }
     }
 
@@ -93,7 +93,7 @@ impl<G: RealGroup> Predictor<G> {
         R: Retraction,
     {
         for stage in &mut sweep.stages {
-            stage.c_dot.clone_from(&stage.xi);
+            stage.c_dot.copy_from(&stage.xi);
             stage.pi.set_zero();
         }
         for _ in 0..2 {

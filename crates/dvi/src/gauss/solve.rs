@@ -12,11 +12,17 @@ const MAX_SWEEPS: u32 = 60;
 /// Newton iterations before a step is given up.
 const MAX_NEWTON: u32 = 40;
 /// A change below this that no longer shrinks is rounding.
-const ROUNDING: f64 = 1e-12;
-/// The remaining error at which iterating on is rounding alone.
-const EXHAUSTED: f64 = 0.1 * f64::EPSILON;
-/// Contraction of Newton's method that keeps its matrix.
-const KEEPS_MATRIX: f64 = 0.1;
+const ROUNDING: f64 = 1e-11;
+/// Sweeps without a smaller change.
+const IDLE: u32 = 3;
+/// The remaining error, and the change, at which iterating on is rounding alone.
+const EXHAUSTED: [f64; 2] = [0.1 * f64::EPSILON, 4.0 * f64::EPSILON];
+/// Contraction of Newton's method that keeps its matrix, from step to step too.
+const KEEPS_MATRIX: f64 = 0.3;
+/// A change of $\pi_0$ this much larger than that of the rates, both relative, is no echo of it.
+const KNOWN_BETTER: f64 = 0.01;
+/// The shortest part of a correction that is tried.
+const SHORTEST: f64 = 1e-3;
 /// Steps solved by Newton's method before the plain iteration is tried again.
 const LONG_STEPS: u32 = 16;
 /// Halvings of a refused step in the search for one that would do.
@@ -130,6 +136,10 @@ impl<C: ContinuousSystem> Work<C> {
     }
 
     /// Sweeps until the estimated error is below the tolerance, or rounding.
+    ///
+    /// The stages start from $\pi_0 = \mu_k + d$. At the solution $d$ is what the moving base point asks for, tiny and
+    /// hardly dependent on the rates; but taken from unfinished rates it would feed all of their error back, undamped by the
+    /// small eigenvalues of $a_{ij}$. So it is kept until it is known better than it changes.
     fn iterate<R: Retraction>(
         &mut self,
         (system, tableau): Method<C>,
@@ -137,38 +147,50 @@ impl<C: ContinuousSystem> Work<C> {
         tolerance: f64,
     ) -> Result<Ended, Failure> {
         self.guess::<R>((system, tableau), (state, h))?;
-        let (mut last, mut best) = (f64::INFINITY, f64::INFINITY);
+        self.start.set_sum(&state.mu, 1.0, &self.drift);
+        let size = state.mu.max_magnitude();
+        let enough = tolerance.max(8.0 * f64::EPSILON);
+        let mut changes = Changes::default();
+        let mut report = StepReport::default();
         for iterations in 2..=MAX_SWEEPS {
             self.remember();
-            let sweep = &mut self.sweep;
-            sweep.place::<R>(tableau, h);
+            let Self {
+                sweep,
+                start,
+                wanted,
+                ..
+            } = &mut *self;
+            sweep.place_from(tableau, h, start);
             sweep.evaluate::<R>(system, tableau, (state.t, h), &state.g);
             sweep.gather(tableau, &state.mu, h);
-            let change = self.change(h);
-            let report = StepReport {
+            sweep.end_to_start::<R>(tableau, h, wanted);
+            start.add_scaled(-1.0, wanted);
+            let apart = relative(start.max_magnitude(), size);
+            start.add_scaled(1.0, wanted);
+            changes.push(self.change(h));
+            report = StepReport {
                 iterations,
-                residual: change,
+                residual: larger(changes.now, apart),
             };
-            if is_solved(change, last, tolerance) {
-                self.sweep.end::<R>(tableau, h);
+            let solved = changes.are_solved(tolerance);
+            if solved && apart <= enough {
                 return Ok(Ended::Solved(report));
             }
-            if !change.is_finite() || (iterations > 6 && change > 2.0 * best) {
-                return Ok(Ended::Slow(report));
+            if solved || (apart > enough && apart > KNOWN_BETTER * changes.now) {
+                self.start.copy_from(&self.wanted);
+                changes = Changes::default();
             }
-            (last, best) = (change, best.min(change));
+            if changes.diverge() {
+                break;
+            }
         }
-        let report = StepReport {
-            iterations: MAX_SWEEPS,
-            residual: best,
-        };
         Ok(Ended::Slow(report))
     }
 
     fn remember(&mut self) {
         for (i, stage) in self.sweep.stages.iter().enumerate() {
-            self.last.c_dot[i].clone_from(&stage.c_dot);
-            self.last.pi_dot[i].clone_from(&stage.pi_dot);
+            self.last.c_dot[i].copy_from(&stage.c_dot);
+            self.last.pi_dot[i].copy_from(&stage.pi_dot);
         }
     }
 
@@ -213,7 +235,8 @@ impl<C: ContinuousSystem> Work<C> {
         tolerance: f64,
     ) -> Ended {
         write(&self.sweep, &mut newton.x);
-        let (mut last, mut stale, mut damping) = (f64::INFINITY, true, 1.0);
+        let (mut last, mut damping) = (f64::INFINITY, 1.0);
+        let mut stale = !newton.fits(h);
         let mut report = StepReport::default();
         for iterations in 1..=MAX_NEWTON {
             read(&mut self.sweep, &newton.x);
@@ -231,37 +254,23 @@ impl<C: ContinuousSystem> Work<C> {
                 self.sweep.end::<R>(tableau, h);
                 return Ended::Solved(report);
             }
-            let overshot = change.is_nan() || change > 2.0 * last;
-            if overshot && damping > 1e-3 {
+            if damping > SHORTEST && (change.is_nan() || change > 2.0 * last) {
                 // Half of the correction back.
                 damping *= 0.5;
-                for (x, delta) in newton.x.iter_mut().zip(&newton.correction) {
-                    *x += damping * delta;
-                }
+                newton.correct(-damping);
                 continue;
             }
             if !change.is_finite() {
                 return Ended::Slow(report);
             }
-            stale |= change > KEEPS_MATRIX * last || damping < 1.0;
-            if stale {
-                let x = core::mem::take(&mut newton.x);
-                newton.renew::<R>((system, tableau), state, h, &x);
-                newton.x = x;
-                stale = false;
+            if stale || damping < 1.0 || change > KEEPS_MATRIX * last {
+                newton.renew_at::<R>((system, tableau), state, h);
             }
-            (last, damping) = (change, 1.0);
-            let mut image = core::mem::take(&mut newton.correction);
-            write(&self.sweep, &mut image);
-            for (entry, x) in image.iter_mut().zip(&newton.x) {
-                *entry = x - *entry;
-            }
-            newton.correction = image;
-            newton.solve();
-            for (x, delta) in newton.x.iter_mut().zip(&newton.correction) {
-                *x -= delta;
-            }
+            (last, damping, stale) = (change, 1.0, false);
+            newton.linearise(&self.sweep);
+            newton.correct(1.0);
         }
+        newton.forget();
         Ended::Slow(report)
     }
 
@@ -283,12 +292,53 @@ impl<C: ContinuousSystem> Work<C> {
     }
 }
 
-/// Whether the error that remains after a change, estimated by the contraction, is below the tolerance, or rounding stands in the way.
+/// Whether the error that remains after a correction is below the tolerance, or rounding stands in the way.
 fn is_solved(change: f64, last: f64, tolerance: f64) -> bool {
     let contraction = (change / last).min(1.0);
-    let remains = change * contraction / (1.0 - contraction).max(f64::MIN_POSITIVE);
+    let remains = change * contraction / (1.0 - contraction);
     let stands = change < ROUNDING && change >= last;
-    change == 0.0 || stands || (last.is_finite() && remains <= tolerance.max(EXHAUSTED))
+    let estimated = last.is_finite() && remains <= tolerance.max(EXHAUSTED[0]);
+    change <= EXHAUSTED[1] || stands || estimated
+}
+
+/// How much the last sweeps have changed.
+///
+/// The contraction is taken over two of them: its eigenvalues are complex, and single changes jump up and down.
+#[derive(Default)]
+struct Changes {
+    now: f64,
+    /// One and two sweeps before.
+    before: [f64; 2],
+    best: f64,
+    /// Sweeps, and sweeps since the best.
+    count: u32,
+    idle: u32,
+}
+
+impl Changes {
+    fn push(&mut self, change: f64) {
+        self.before = [self.now, self.before[0]];
+        let better = self.count == 0 || change < self.best;
+        self.idle = if better { 0 } else { self.idle + 1 };
+        self.best = if better { change } else { self.best };
+        self.now = change;
+        self.count += 1;
+    }
+
+    /// Whether the error that remains, estimated by the contraction, is below the tolerance, or rounding stands in the way.
+    fn are_solved(&self, tolerance: f64) -> bool {
+        if self.now <= EXHAUSTED[1] || self.count < 3 {
+            return self.now <= EXHAUSTED[1];
+        }
+        let contraction = (self.now / self.before[1]).sqrt().min(1.0);
+        let remains = self.now * contraction / (1.0 - contraction);
+        let stands = self.now < ROUNDING && self.idle >= IDLE;
+        stands || remains <= tolerance.max(EXHAUSTED[0])
+    }
+
+    fn diverge(&self) -> bool {
+        !self.now.is_finite() || (self.count > 6 && self.now > 10.0 * self.best)
+    }
 }
 
 /// A system at rest has no scale, and no change either.

@@ -93,6 +93,32 @@ impl<C: ContinuousSystem, S: Scalar> Sweep<C, S> {
         }
     }
 
+    /// The stages' places from the rates and a given $\pi_0$: $c_i = h \sum_j a_{ij} \dot c_j$ and $\pi_i = \pi_0 + h \sum_j a_{ij} \dot\pi_j$.
+    #[inline(always)]
+    pub(super) fn place_from(&mut self, tableau: &Tableau, h: S, start: &DualOver<C::Group, S>) {
+        for i in 0..self.stages.len() {
+            self.place_coordinates(tableau, i, h);
+            let (stages, row) = (&self.stages, &tableau.forward[i]);
+            combine(&mut self.next_pi, h, row, |j| &stages[j].pi_dot);
+            self.next_pi.add_scaled(S::one(), start);
+            core::mem::swap(&mut self.stages[i].pi, &mut self.next_pi);
+        }
+    }
+
+    /// The $\pi_0$ that the step's end asks for, $\pi_1 - h \sum_j b_j \dot\pi_j$, into `start`; and the step's end.
+    #[inline(always)]
+    pub(super) fn end_to_start<R: Retraction>(
+        &mut self,
+        tableau: &Tableau,
+        h: S,
+        start: &mut DualOver<C::Group, S>,
+    ) {
+        self.end::<R>(tableau, h);
+        let stages = &self.stages;
+        combine(start, -h, &tableau.weights, |j| &stages[j].pi_dot);
+        start.add_scaled(S::one(), &self.pi);
+    }
+
     /// The step's end and the stages' places from the rates and from $P$:
     /// $c_i = h \sum_j a_{ij} \dot c_j$ and $\pi_i = \pi_1 - h \sum_j (b_j - a_{ij}) \dot\pi_j$.
     #[inline(always)]
@@ -172,8 +198,8 @@ impl<C: ContinuousSystem, S: Scalar> Sweep<C, S> {
         let (xi, tau) = (&mut first.xi, &mut first.tau);
         system.velocity_and_force(t, g, mu, &mut self.workspace, xi, tau);
         for stage in rest {
-            stage.xi.clone_from(&first.xi);
-            stage.tau.clone_from(&first.tau);
+            stage.xi.copy_from(&first.xi);
+            stage.tau.copy_from(&first.tau);
         }
     }
 }

@@ -76,7 +76,7 @@ impl<G: RealGroup> Update<G> {
     }
 
     fn begin(&mut self, state: &State<G>) {
-        self.after.g.clone_from(&state.g);
+        self.after.g.copy_from(&state.g);
         self.carry = state.g.zero_carry();
         state.g.inverse_coadjoint_into(&state.mu, &mut self.spatial);
         self.spatial_carry.set_zero();
@@ -86,7 +86,7 @@ impl<G: RealGroup> Update<G> {
     fn add_increment(&mut self) {
         self.spatial_carry.add_scaled(1.0, &self.increment);
         let wanted = &self.spatial_carry;
-        self.increment.clone_from(&self.spatial);
+        self.increment.copy_from(&self.spatial);
         self.spatial.add_scaled(1.0, wanted);
         // What was wanted, less what the sum has grown by.
         self.spatial_carry.add_scaled(1.0, &self.increment);

@@ -71,14 +71,19 @@ pub struct Report {
 #[non_exhaustive]
 pub enum LawError {
     /// There was nothing to try the laws on.
-    #[error("no {what} to check on: give at least one, laws cannot pass on nothing")]
-    NoExamples {
-        /// What was missing.
-        what: &'static str,
+    #[error("no state to check on: give at least one, laws cannot pass on nothing")]
+    NoExamples,
+    /// The errors of the runs are those of rounding, or there is one run only: they show no order.
+    #[error(
+        "fewer than two runs have errors above rounding (step sizes and errors: {errors:?}): give more runs, of longer steps"
+    )]
+    TooFewRuns {
+        /// Step sizes, s, and errors of all runs.
+        errors: Vec<(f64, f64)>,
     },
     /// A law does not hold.
     #[error(
-        "the law {formula} fails for {case}: component {component} is {left:.17e} on the left and {right:.17e} on the right (tolerance {tolerance:.1e})"
+        "the law {formula} fails: component {component} is {left:.17e} on the left and {right:.17e} on the right (tolerance {tolerance:.1e}), for {case}"
     )]
     Violated {
         /// The law.
@@ -150,7 +155,7 @@ pub fn check<L: DiscreteLagrangian>(
 
 fn examples<T>(states: &[T]) -> Outcome {
     match states {
-        [] => Err(LawError::NoExamples { what: "state" }),
+        [] => Err(LawError::NoExamples),
         _ => Ok(()),
     }
 }

@@ -27,7 +27,7 @@ pub struct Order {
 /// distances are the larger of $|\log(g_a^{-1} g_b)|$ and $|\mu_a - \mu_b| / |\mu_a|$.
 ///
 /// # Errors
-/// [`LawError::NoExamples`] where fewer than two runs have errors above rounding; [`LawError::Step`].
+/// [`LawError::TooFewRuns`] where fewer than two runs have errors above rounding; [`LawError::Step`].
 pub fn observed_order<I: Integrator>(
     integrator: impl Fn() -> I,
     start: &State<I::Group>,
@@ -42,22 +42,22 @@ pub fn observed_order<I: Integrator>(
         }
         Ok(state)
     };
-    let mut errors = Vec::new();
+    let (mut all, mut errors) = (Vec::new(), Vec::new());
     for &n in steps {
+        let h = until / f64::from(n);
         let error = distance(&run(n)?, &run(n.saturating_mul(2))?);
+        all.push((h, error));
         if error > PLATEAU * f64::from(n).sqrt() {
-            errors.push((until / f64::from(n), error));
+            errors.push((h, error));
         }
     }
-    match errors.len() {
-        0 | 1 => Err(LawError::NoExamples {
-            what: "two runs with errors above rounding",
-        }),
-        _ => Ok(Order {
-            slope: slope(&errors),
-            errors,
-        }),
+    if errors.len() < 2 {
+        return Err(LawError::TooFewRuns { errors: all });
     }
+    Ok(Order {
+        slope: slope(&errors),
+        errors,
+    })
 }
 
 /// Checks that the observed order is within 0.1 of the declared one; see [`observed_order`].

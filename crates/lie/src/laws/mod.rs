@@ -11,6 +11,7 @@
 //! ```
 
 mod adjoint;
+mod chart;
 mod checker;
 mod differentials;
 mod dual_differentials;
@@ -96,6 +97,7 @@ pub enum LawError {
 ///   dual numbers and against central differences;
 /// - the transposes of these differentials by the pairings that define them, and the gradients of
 ///   $\langle\mu, \mathrm d\tau_\xi^{-1} \eta\rangle$ against dual numbers and against central differences;
+/// - canonical coordinates of both charts, and compensated products;
 /// - the `*_into` forms against the plain ones, into an element or vector that differs.
 ///
 /// Elements are equal where $\log(a^{-1} b) = 0$ and $\mathrm{Ad}\_a = \mathrm{Ad}\_b$ on the basis. Tolerances are a few
@@ -128,6 +130,7 @@ where
     adjoint::check(&mut checker, &examples)?;
     differentials::check(&mut checker, &examples)?;
     dual_differentials::check(&mut checker, &examples)?;
+    chart::check(&mut checker, &examples)?;
     Ok(Report {
         comparisons: checker.comparisons,
         worst: checker.worst,

@@ -53,6 +53,13 @@ fn combinations<V: VectorSpace>(c: &mut Checker, x: &V, y: &V) -> Outcome {
     set.set_sum(x, a, y);
     vectors(c, "set_sum = x + a y", (&set, &expected))?;
 
+    let mut copied = filled(x, |_| garbage);
+    copied.copy_from(x);
+    vectors(c, "copy_from: x", (&copied, x))?;
+    let mut scaled = x.clone();
+    scaled.scale(a);
+    vectors(c, "scale: a x", (&scaled, &filled(x, |i| a * x.get(i))))?;
+
     let mut none = x.clone();
     none.set_zero();
     vectors(c, "set_zero = 0", (&none, &zero(x)))?;
