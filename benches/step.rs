@@ -4,9 +4,9 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use divan::{Bencher, black_box};
-use dvi::{ContinuousSystem, Integrator, State, Variational};
+use dvi::{ContinuousSystem, DiscreteLagrangian, Gauss, Integrator, State, Variational};
 use lgvi::{articulated_fluid, dvi, lie};
-use lie::LieGroup;
+use lie::{LieGroup, Scalar};
 
 const H: f64 = 1e-3;
 /// Steps or evaluations in one measured call, so that the clock's own cost does not count.
@@ -52,6 +52,45 @@ fn step_x1000(bencher: Bencher) {
         for _ in 0..BATCH {
             integrator
                 .step(black_box(&mut state), H)
+                .expect("the paper's step is solved");
+        }
+    });
+}
+
+/// (22) without its derivatives (29)–(33).
+struct ValueOnly(ArticulatedBody);
+
+impl DiscreteLagrangian for ValueOnly {
+    type Group = Configuration;
+
+    fn value<S: Scalar>(&self, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {
+        DiscreteLagrangian::value(&self.0, g, f, h)
+    }
+}
+
+/// 1000 steps from the value alone: derivatives and Newton matrix from dual numbers.
+#[divan::bench]
+fn step_value_only_x1000(bencher: Bencher) {
+    let (model, mut state) = paper();
+    let mut integrator = Variational::new(ValueOnly(model));
+    bencher.bench_local(|| {
+        for _ in 0..BATCH {
+            integrator
+                .step(black_box(&mut state), H)
+                .expect("the paper's step is solved");
+        }
+    });
+}
+
+/// 1000 steps of 0.1 s of order 8: a hundred times as long.
+#[divan::bench(sample_count = 20)]
+fn step_gauss_4_x1000(bencher: Bencher) {
+    let (model, mut state) = paper();
+    let mut integrator = Gauss::<_, 4>::new(model);
+    bencher.bench_local(|| {
+        for _ in 0..BATCH {
+            integrator
+                .step(black_box(&mut state), 100.0 * H)
                 .expect("the paper's step is solved");
         }
     });
