@@ -18,26 +18,17 @@ impl ArticulatedBody {
         (f0, dx, f): (&SO3<S>, Vec3<S>, &[SO3<S>]),
         h: S,
     ) -> S {
-        let half = S::from_f64(0.5);
-        let (y, e0) = (r0.inverse_rotate(dx), f0.minus_identity());
-        let m0 = self.head.m.lift::<S>();
-        let mut sum = y.dot(m0 * y) * half - rotation_action(f0, self.head.jd);
+        let (y, e0) = (r0.inverse_rotate(dx), f0.displacement());
+        let mut sum = y.dot(self.head.m.apply(y)).times(0.5) - e0.trace_with(self.head.jd);
         for ((tail, r), f) in self.tails.iter().zip(r).zip(f) {
-            let (m, e) = (tail.m.lift::<S>(), f.minus_identity());
-            let b = r.inverse_rotate(dx + r0.rotate(e0 * tail.on_head.lift()));
-            let mb = m * b;
-            sum += b.dot(mb) * half - mb.dot(e * tail.on_tail.lift());
-            sum -= rotation_action(f, tail.jd);
+            let (e, joint) = (f.displacement(), e0.apply(tail.on_head.lift()));
+            let b = r.inverse_rotate(dx + r0.rotate(joint));
+            let mb = tail.m.apply(b);
+            sum += b.dot(mb).times(0.5) - mb.dot(e.apply(tail.on_tail.lift()));
+            sum -= e.trace_with(tail.jd);
         }
         sum / h
     }
-}
-
-/// $\mathrm{tr}[E J_d]$, to which only the symmetric part of $E = F - I$ contributes.
-#[inline(always)]
-fn rotation_action<S: Scalar>(f: &SO3<S>, jd: Mat3) -> S {
-    let (e, jd) = (f.symmetric_minus_identity(), jd.lift::<S>());
-    e.row(0).dot(jd.row(0)) + e.row(1).dot(jd.row(1)) + e.row(2).dot(jd.row(2))
 }
 
 /// $\left(J_d F - F^T J_d\right)^\vee$ from $E = F - I$: the identity cancels.

@@ -50,7 +50,7 @@
 //! With this convention $\mathrm{Ad}^\ast$ is a right action: on $SO(3)$, $\mathrm{Ad}^\ast_R \mu = R^T \mu$.
 //!
 //! # One formula, every scalar
-//! All types take a [`Scalar`], `f64` unless said: `f32`, and the dual numbers of `num-dual` to any depth. A group is a
+//! All types take a [`Scalar`], `f64` unless said: `f32`, and [dual numbers](DualNumber) to any depth. A group is a
 //! family: [`Over<G, S>`](Over) is `G` over `S`. [`Scalar::Jet`] is the dual number that carries [`JET_DIRECTIONS`]
 //! derivatives, and [`seed`] makes of it the left-trivialised derivative of any function of a group element:
 //!
@@ -75,6 +75,7 @@ mod approximate;
 #[cfg(feature = "nalgebra")]
 mod convert_nalgebra;
 mod dense;
+mod dual_number;
 mod error;
 mod group;
 mod kahan;
@@ -94,6 +95,7 @@ mod stumpff;
 mod vector;
 mod vector_space;
 
+pub use dual_number::DualNumber;
 pub use error::{NotARotation, NotUnique, OutsideChart};
 pub use group::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, seed};
 pub use matrix::Mat3;
@@ -104,6 +106,6 @@ pub use scalar::{JET_DIRECTIONS, Jet, Scalar};
 pub use se2::SE2;
 pub use se3::SE3;
 pub use so2::SO2;
-pub use so3::SO3;
+pub use so3::{Displacement, SO3};
 pub use vector::Vec3;
 pub use vector_space::{Cotangent, Tangent, VectorSpace};

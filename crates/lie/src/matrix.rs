@@ -102,11 +102,33 @@ impl<S: Scalar> Mat3<S> {
     }
 }
 
+/// The matrix of these rows. Not by `array::map`, which moves large entries, dual numbers, through memory.
+#[inline(always)]
+fn rows<S: Scalar>(row: impl Fn(usize) -> Vec3<S>) -> Mat3<S> {
+    Mat3([row(0).0, row(1).0, row(2).0])
+}
+
 impl Mat3<f64> {
+    /// $A x$ with the constant $A$: cheaper over dual numbers than [lifting](Self::lift) it.
+    ///
+    /// ```
+    /// use lie::{Mat3, Vec3};
+    ///
+    /// assert_eq!(Mat3::diagonal([1.0, 2.0, 3.0]).apply(Vec3([1.0_f32; 3])), Vec3([1.0, 2.0, 3.0]));
+    /// ```
+    #[inline(always)]
+    pub fn apply<S: Scalar>(self, x: Vec3<S>) -> Vec3<S> {
+        Vec3([
+            self.row(0).pair(x),
+            self.row(1).pair(x),
+            self.row(2).pair(x),
+        ])
+    }
+
     /// The same matrix over another scalar, as a constant.
     #[inline(always)]
     pub fn lift<S: Scalar>(self) -> Mat3<S> {
-        Mat3(self.0.map(|row| row.map(S::from_f64)))
+        rows(|i| Vec3(self.0[i]).lift())
     }
 }
 
@@ -137,7 +159,7 @@ impl<S: Scalar> Mul for Mat3<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, b: Self) -> Self {
-        Self(self.0.map(|row| b.transpose_mul(Vec3(row)).0))
+        rows(|i| b.transpose_mul(self.row(i)))
     }
 }
 
@@ -145,7 +167,7 @@ impl<S: Scalar> Mul<S> for Mat3<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, a: S) -> Self {
-        Self(self.0.map(|row| row.map(|x| x * a)))
+        rows(|i| self.row(i) * a)
     }
 }
 
@@ -153,7 +175,7 @@ impl<S: Scalar> Add for Mat3<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, b: Self) -> Self {
-        Self([0, 1, 2].map(|i| (self.row(i) + b.row(i)).0))
+        rows(|i| self.row(i) + b.row(i))
     }
 }
 
@@ -161,7 +183,7 @@ impl<S: Scalar> Sub for Mat3<S> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, b: Self) -> Self {
-        Self([0, 1, 2].map(|i| (self.row(i) - b.row(i)).0))
+        rows(|i| self.row(i) - b.row(i))
     }
 }
 
@@ -169,7 +191,7 @@ impl<S: Scalar> Neg for Mat3<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|row| row.map(|x| -x)))
+        rows(|i| -self.row(i))
     }
 }
 

@@ -3,8 +3,9 @@
 use core::fmt::Debug;
 use core::ops::Neg;
 
-use num_dual::{Dual, DualNum, DualSVec};
 use num_traits::{NumAssignOps, NumOps, One, Zero};
+
+use crate::DualNumber;
 
 /// Directions that one [`Scalar::Jet`] carries.
 ///
@@ -47,6 +48,12 @@ pub trait Scalar:
 
     /// The nearest number to `x`, a constant under differentiation.
     fn from_f64(x: f64) -> Self;
+
+    /// $c x$ for a constant $c$; dual numbers need not carry its derivatives along.
+    #[inline(always)]
+    fn times(self, c: f64) -> Self {
+        self * Self::from_f64(c)
+    }
 
     /// The value without derivatives.
     fn real(self) -> Self::Real;
@@ -104,7 +111,7 @@ macro_rules! float {
         impl Scalar for $float {
             type Mask = bool;
             type Real = $float;
-            type Jet = DualSVec<$float, JET_DIRECTIONS>;
+            type Jet = DualNumber<$float>;
             const EPSILON: f64 = $float::EPSILON as f64;
             const DUAL_LEVELS: u32 = 0;
 
@@ -150,79 +157,3 @@ macro_rules! float {
 
 float!(f64);
 float!(f32);
-
-macro_rules! dual {
-    ([$($generics:tt)*], $dual:ty) => {
-        impl<T: Scalar + DualNum, $($generics)*> Scalar for $dual {
-            type Mask = bool;
-            type Real = <T as Scalar>::Real;
-            type Jet = DualSVec<Self, JET_DIRECTIONS>;
-            const EPSILON: f64 = T::EPSILON;
-            const DUAL_LEVELS: u32 = T::DUAL_LEVELS + 1;
-
-            #[inline(always)]
-            fn from_f64(x: f64) -> Self {
-                Self::from_re(<T as Scalar>::from_f64(x))
-            }
-            #[inline(always)]
-            fn real(self) -> <T as Scalar>::Real {
-                Scalar::real(self.re)
-            }
-            #[inline(always)]
-            fn from_real(x: <T as Scalar>::Real) -> Self {
-                Self::from_re(<T as Scalar>::from_real(x))
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                DualNum::sqrt(&self)
-            }
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) {
-                DualNum::sin_cos(&self)
-            }
-            #[inline(always)]
-            fn atan2(self, x: Self) -> Self {
-                // Not the method of `DualNum`, whose derivative divides by x: it may be zero.
-                let [a, b] = [x.re, self.re].map(Self::from_re);
-                let change = (a * self - b * x) / (a * a + b * b);
-                Self::from_re(Scalar::atan2(self.re, x.re)) + change
-            }
-            #[inline(always)]
-            fn less(self, rhs: Self) -> bool {
-                self.re < rhs.re
-            }
-            #[inline(always)]
-            fn select(mask: bool, yes: Self, no: Self) -> Self {
-                if mask { yes } else { no }
-            }
-            #[inline(always)]
-            fn magnitude(self) -> f64 {
-                self.re.magnitude()
-            }
-        }
-    };
-}
-
-dual!([const N: usize], DualSVec<T, N>);
-dual!([], Dual<T>);
-
-impl<T: Scalar + DualNum> Jet for DualSVec<T, JET_DIRECTIONS> {
-    type Value = T;
-
-    #[inline(always)]
-    fn constant(value: T) -> Self {
-        Self::from_re(value)
-    }
-    #[inline(always)]
-    fn variable(value: T, direction: usize) -> Self {
-        Self::from_re(value).derivative(direction)
-    }
-    #[inline(always)]
-    fn value(self) -> T {
-        self.re
-    }
-    #[inline(always)]
-    fn partial(self, direction: usize) -> T {
-        self.eps.0.map_or(T::zero(), |eps| eps[direction])
-    }
-}

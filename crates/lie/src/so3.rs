@@ -133,6 +133,21 @@ impl<S: Scalar> SO3<S> {
         self.matrix.vee().hat() + self.symmetric_minus_identity()
     }
 
+    /// $(R - I) x$ and $\mathrm{tr}[(R - I) A]$ with small relative error, without forming the matrix; see [`Displacement`].
+    #[inline(always)]
+    pub fn displacement(&self) -> Displacement<S> {
+        let (s, trace) = (self.matrix.vee(), self.matrix.trace());
+        let moderate = S::zero().less(trace);
+        let safe = S::select(moderate, trace, S::one());
+        Displacement {
+            rotation: *self,
+            s,
+            square: s.norm_squared(),
+            scale: S::from_f64(2.0) / (S::one() + safe),
+            moderate,
+        }
+    }
+
     /// The symmetric part of $R - I$, likewise: $\hat s^2 / (1 + \cos\theta)$ with $\hat s = \frac12 (R - R^T)$.
     #[inline(always)]
     pub fn symmetric_minus_identity(&self) -> Mat3<S> {
@@ -142,7 +157,9 @@ impl<S: Scalar> SO3<S> {
         let near = (s.outer(s) - Mat3::diagonal([s.norm_squared(); 3])) * scale;
         let sum = (self.matrix + self.matrix.transpose()) * S::from_f64(0.5);
         let far = sum - Mat3::identity();
-        Mat3([0, 1, 2].map(|i| [0, 1, 2].map(|j| S::select(moderate, near[(i, j)], far[(i, j)]))))
+        let entry = |i: usize, j: usize| S::select(moderate, near[(i, j)], far[(i, j)]);
+        let row = |i: usize| [entry(i, 0), entry(i, 1), entry(i, 2)];
+        Mat3([row(0), row(1), row(2)])
     }
 
     /// $\lVert I - R^T R \rVert_F$.
@@ -169,6 +186,47 @@ impl<S: Scalar> SO3<S> {
     }
 }
 
+/// $R - I = \hat s + \frac{1}{1 + \cos\theta} \hat s^2$ with $\hat s = \frac12 (R - R^T)$, for products with vectors.
+///
+/// ```
+/// use lie::{LieGroup, SO3, Tangent, Vec3};
+///
+/// let (x, angle) = (Vec3([0.0, 1.0, 0.0]), 1e-9_f64);
+/// let moved = SO3::exp(&Tangent([0.0, 0.0, angle])).displacement().apply(x);
+/// assert_eq!(moved[0], -angle);
+/// assert!((moved[1] / (-0.5 * angle * angle) - 1.0).abs() < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Displacement<S: Scalar> {
+    rotation: SO3<S>,
+    s: Vec3<S>,
+    square: S,
+    /// $1 / (1 + \cos\theta)$, for moderate angles.
+    scale: S,
+    moderate: S::Mask,
+}
+
+impl<S: Scalar> Displacement<S> {
+    /// $(R - I) x$.
+    #[inline(always)]
+    pub fn apply(&self, x: Vec3<S>) -> Vec3<S> {
+        let s = self.s;
+        let near = s.cross(x) + (s * s.dot(x) - x * self.square) * self.scale;
+        let far = self.rotation.rotate(x) - x;
+        let pick = |i: usize| S::select(self.moderate, near[i], far[i]);
+        Vec3([pick(0), pick(1), pick(2)])
+    }
+
+    /// $\mathrm{tr}[(R - I) A]$ for a symmetric constant $A$.
+    #[inline(always)]
+    pub fn trace_with(&self, a: Mat3) -> S {
+        let near = (self.s.dot(a.apply(self.s)) - self.square.times(a.trace())) * self.scale;
+        let m = self.rotation.matrix;
+        let far = a.row(0).pair(m.row(0)) + a.row(1).pair(m.row(1)) + a.row(2).pair(m.row(2));
+        S::select(self.moderate, near, far - S::from_f64(a.trace()))
+    }
+}
+
 impl<S: Scalar> LieGroup for SO3<S> {
     type Scalar = S;
     type Algebra = Tangent<3, S>;
@@ -187,7 +245,9 @@ impl<S: Scalar> LieGroup for SO3<S> {
 
     #[inline(always)]
     fn convert<A: Scalar, B: Scalar>(g: &SO3<A>, f: impl Fn(A) -> B + Copy) -> Over<Self, B> {
-        SO3::from_matrix_unchecked(Mat3(g.matrix.0.map(|row| row.map(f))))
+        let row = |[x, y, z]: [A; 3]| [f(x), f(y), f(z)];
+        let [a, b, c] = g.matrix.0;
+        SO3::from_matrix_unchecked(Mat3([row(a), row(b), row(c)]))
     }
 
     #[inline(always)]

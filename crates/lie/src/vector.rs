@@ -50,7 +50,7 @@ impl<S: Scalar> Vec3<S> {
     /// $x y^T$.
     #[inline(always)]
     pub fn outer(self, y: Self) -> Mat3<S> {
-        Mat3(self.0.map(|x| (y * x).0))
+        Mat3([(y * self[0]).0, (y * self[1]).0, (y * self[2]).0])
     }
 
     /// $|x|^2$.
@@ -73,10 +73,17 @@ impl<S: Scalar> Vec3<S> {
 }
 
 impl Vec3<f64> {
+    /// $a \cdot x$ with this constant $a$: cheaper over dual numbers than [lifting](Self::lift) it.
+    #[inline(always)]
+    pub fn pair<S: Scalar>(self, x: Vec3<S>) -> S {
+        x[0].times(self[0]) + x[1].times(self[1]) + x[2].times(self[2])
+    }
+
     /// The same vector over another scalar, as a constant.
     #[inline(always)]
     pub fn lift<S: Scalar>(self) -> Vec3<S> {
-        Vec3(self.0.map(S::from_f64))
+        let [x, y, z] = self.0;
+        Vec3([S::from_f64(x), S::from_f64(y), S::from_f64(z)])
     }
 }
 
@@ -115,7 +122,7 @@ impl<S: Scalar> Neg for Vec3<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
+        Self([-self[0], -self[1], -self[2]])
     }
 }
 
@@ -123,7 +130,7 @@ impl<S: Scalar> Mul<S> for Vec3<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, a: S) -> Self {
-        Self(self.0.map(|x| x * a))
+        Self([self[0] * a, self[1] * a, self[2] * a])
     }
 }
 

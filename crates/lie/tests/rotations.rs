@@ -161,3 +161,23 @@ proptest! {
         prop_assert!((*e.matrix() - *cay.matrix()).frobenius() <= bound);
     }
 }
+
+/// Without the matrix, as with it; and as exact near the identity.
+#[test]
+fn a_displacement_is_the_rotation_less_the_identity() {
+    let (x, a) = (
+        Vec3([0.3, -1.0, 0.7]),
+        Mat3([[2.0, 0.1, 0.2], [0.1, 1.0, 0.3], [0.2, 0.3, 0.5]]),
+    );
+    for angle in [0.0, 1e-9, 1e-4, 0.7, 1.9, 2.5, 3.0, 3.1415] {
+        let r = SO3::exp(&Tangent([2.0, -3.0, 6.0].map(|c| c / 7.0 * angle)));
+        let (e, matrix) = (r.displacement(), r.minus_identity());
+        let size = f64::EPSILON * angle;
+        assert!((e.apply(x) - matrix * x).norm() <= 20.0 * size, "{angle}");
+        let trace = (matrix * a).trace();
+        assert!(
+            (e.trace_with(a) - trace).abs() <= 20.0 * size * angle.max(1e-3),
+            "{angle}"
+        );
+    }
+}

@@ -8,6 +8,8 @@
 //! * [`methods`] — the integrators of the fish chain's model, by name;
 //! * [`baseline`] — the non-geometric competitor: adaptive explicit
 //!   Runge–Kutta, also good as a tight-tolerance reference solution;
+//! * [`survey`] — order, energy, momentum maps and symplecticity of any method
+//!   on a test problem, and methods that are wrong on purpose;
 //! * [`figure`] — grids of line charts, written as SVG and PNG without any
 //!   font of the system.
 
@@ -17,3 +19,4 @@ pub mod methods;
 pub mod on_group;
 pub mod problems;
 pub mod raw;
+pub mod survey;
