@@ -115,32 +115,28 @@ type J = <f64 as Scalar>::Jet;
 pub(crate) struct Linearised<G: RealGroup> {
     newton: Newton<G>,
     balance: Balance<G, J>,
-    g: Over<G, J>,
-    mu: DualOver<G, J>,
+    varied: Varied<G>,
     c: AlgebraOver<G, J>,
-    moved: Over<G, J>,
     delta: G::Algebra,
     delta_residual: G::Dual,
 }
 
 impl<G: RealGroup> Linearised<G> {
     pub(crate) fn new<L: DiscreteLagrangian<Group = G>>(lagrangian: &L, state: &G) -> Self {
-        let g = state.lift::<J>();
+        let varied = Varied::new(state);
         Self {
             newton: StepSolver::<L>::allocate(lagrangian, state),
-            balance: Balance::new(&g),
-            mu: g.zero_dual(),
-            c: g.zero_algebra(),
-            moved: g.clone(),
+            balance: Balance::new(&varied.g),
+            c: varied.g.zero_algebra(),
             delta: state.zero_algebra(),
             delta_residual: state.zero_dual(),
-            g,
+            varied,
         }
     }
 
     /// Whether the storage is for states of the shape of `g`.
     pub(crate) fn fits(&self, g: &G) -> bool {
-        self.moved.same_shape(&g.lift::<J>())
+        self.varied.same_shape(g)
     }
 
     /// Carries variations of `state` over the step of size `h` whose solution is `c`.
@@ -153,7 +149,7 @@ impl<G: RealGroup> Linearised<G> {
     ) {
         StepSolver::<L>::renew::<R>(&mut self.newton, lagrangian, state, h, c);
         for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
-            self.seed(state, h, chunk);
+            self.varied.enter(state, h, chunk);
             self.c.set_zero();
             add_constant(&mut self.c, c);
             self.evaluate::<L, R>(lagrangian, state.t, h);
@@ -161,25 +157,9 @@ impl<G: RealGroup> Linearised<G> {
                 self.follow::<L>(lagrangian, direction);
             }
             self.evaluate::<L, R>(lagrangian, state.t, h);
-            self.read(h, chunk);
+            let (f, mu) = (&self.balance.f, &self.balance.transported);
+            self.varied.leave(f, mu, h, chunk);
         }
-    }
-
-    /// $g \exp(\eta)$ and $\mu + \delta\mu + \frac h2 \delta F$, a direction for each variation.
-    fn seed(&mut self, state: &State<G>, h: f64, chunk: &[Variation<G>]) {
-        let along = |part: &dyn Fn(&Variation<G>) -> f64| {
-            let terms = chunk.iter().enumerate();
-            terms.fold(J::constant(0.0), |sum, (direction, variation)| {
-                sum + J::variable(0.0, direction) * J::constant(part(variation))
-            })
-        };
-        for i in 0..self.c.dim() {
-            self.c.set(i, along(&|variation| variation.eta.get(i)));
-            let change = along(&|variation| variation.mu.get(i) + 0.5 * h * variation.force.get(i));
-            self.mu.set(i, J::constant(state.mu.get(i)) + change);
-        }
-        Cayley::retract_into::<Over<G, J>>(&self.c, &mut self.moved);
-        self.g = state.g.lift::<J>().compose(&self.moved);
     }
 
     fn evaluate<L: DiscreteLagrangian<Group = G>, R: Retraction>(
@@ -190,7 +170,8 @@ impl<G: RealGroup> Linearised<G> {
     ) {
         self.balance.retract::<R>(&self.c);
         let (t, h) = (J::constant(t), J::constant(h));
-        self.balance.evaluate(lagrangian, t, &self.g, &self.mu, h);
+        let Varied { g, mu, .. } = &self.varied;
+        self.balance.evaluate(lagrangian, t, g, mu, h);
     }
 
     /// Moves `c` along with one direction of the variations, so that the residual stays zero to first order.
@@ -206,21 +187,67 @@ impl<G: RealGroup> Linearised<G> {
             self.c.set(i, self.c.get(i) - moved);
         }
     }
+}
 
-    /// The variations at the end: of $g f$ by $f^{-1} \exp(\eta) f$, and of the transported momentum.
-    fn read(&self, h: f64, chunk: &mut [Variation<G>]) {
-        let f = &self.balance.f;
+/// A varied state over dual numbers, a direction for each variation.
+pub(crate) struct Varied<G: RealGroup> {
+    /// $\exp(\eta)$.
+    turn: Over<G, J>,
+    /// $g \exp(\eta)$.
+    pub(crate) g: Over<G, J>,
+    /// $\mu + \delta\mu + \frac h2 \delta F$.
+    pub(crate) mu: DualOver<G, J>,
+}
+
+impl<G: RealGroup> Varied<G> {
+    pub(crate) fn new(g: &G) -> Self {
+        let g = g.lift::<J>();
+        Self {
+            turn: g.clone(),
+            mu: g.zero_dual(),
+            g,
+        }
+    }
+
+    pub(crate) fn same_shape(&self, g: &G) -> bool {
+        self.g.same_shape(&g.lift::<J>())
+    }
+
+    pub(crate) fn enter(&mut self, state: &State<G>, h: f64, chunk: &[Variation<G>]) {
+        let along = |part: &dyn Fn(&Variation<G>) -> f64| {
+            let terms = chunk.iter().enumerate();
+            terms.fold(J::constant(0.0), |sum, (direction, variation)| {
+                sum + J::variable(0.0, direction).times(part(variation))
+            })
+        };
+        let mut eta = self.g.zero_algebra();
+        for i in 0..eta.dim() {
+            eta.set(i, along(&|variation| variation.eta.get(i)));
+            let change = along(&|variation| variation.mu.get(i) + 0.5 * h * variation.force.get(i));
+            self.mu.set(i, J::constant(state.mu.get(i)) + change);
+        }
+        Cayley::retract_into::<Over<G, J>>(&eta, &mut self.turn);
+        self.g = state.g.lift::<J>().compose(&self.turn);
+    }
+
+    /// The variations at the end: of $g f$ by $f^{-1} \exp(\eta) f$, and of the momentum there.
+    pub(crate) fn leave(
+        &self,
+        f: &Over<G, J>,
+        mu: &DualOver<G, J>,
+        h: f64,
+        chunk: &mut [Variation<G>],
+    ) {
         let still = G::convert::<J, f64>(f, Jet::value).lift::<J>();
-        let turn = still.inverse().compose(&self.moved.compose(f));
-        let eta = turn.cayley_inverse().ok();
+        let end = still.inverse().compose(&self.turn.compose(f));
+        let eta = end.cayley_inverse().ok();
         for (direction, variation) in chunk.iter_mut().enumerate() {
             for i in 0..variation.eta.dim() {
                 let slope = |x: J| x.partial(direction);
                 let rate = eta.as_ref().map_or(f64::NAN, |eta| slope(eta.get(i)));
                 variation.eta.set(i, rate);
                 let impulse = 0.5 * h * variation.force.get(i);
-                let momentum = slope(self.balance.transported.get(i));
-                variation.mu.set(i, momentum + impulse);
+                variation.mu.set(i, slope(mu.get(i)) + impulse);
             }
         }
     }

@@ -1,11 +1,12 @@
 //! Newton's method on the sweep, for steps too long for its iteration; and the derivative of a solved step.
 
-use lie::{Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
+use lie::{Jet, LieGroup, Retraction, Scalar, VectorSpace};
 
 use super::sweep::Sweep;
 use super::tableau::Tableau;
 use crate::jets::add_constant;
 use crate::linear::Factorisation;
+use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
 
 type J = <f64 as Scalar>::Jet;
@@ -22,8 +23,7 @@ pub(super) struct SweepNewton<C: ContinuousSystem> {
     correction: Vec<f64>,
     sweep: Sweep<C, J>,
     unknowns: Vec<J>,
-    g: Over<C::Group, J>,
-    mu: DualOver<C::Group, J>,
+    varied: Varied<C::Group>,
 }
 
 /// Writes the rates and the momentum of a sweep.
@@ -53,16 +53,15 @@ pub(super) fn read<C: ContinuousSystem, S: Scalar>(sweep: &mut Sweep<C, S>, from
 impl<C: ContinuousSystem> SweepNewton<C> {
     pub(super) fn new(system: &C, stages: usize, g: &C::Group) -> Self {
         let dim = g.zero_dual().dim() * (2 * stages + 1);
-        let lifted = g.lift::<J>();
+        let varied = Varied::new(g);
         Self {
             matrix: Factorisation::new(dim),
             h: 0.0,
             x: vec![0.0; dim],
             correction: vec![0.0; dim],
-            sweep: Sweep::new(system, stages, &lifted),
+            sweep: Sweep::new(system, stages, &varied.g),
             unknowns: vec![J::constant(0.0); dim],
-            mu: lifted.zero_dual(),
-            g: lifted,
+            varied,
         }
     }
 
@@ -134,9 +133,9 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     }
 
     fn set_state(&mut self, state: &State<C::Group>) {
-        C::Group::convert_into::<f64, J>(&state.g, J::constant, &mut self.g);
-        self.mu.set_zero();
-        add_constant(&mut self.mu, &state.mu);
+        C::Group::convert_into::<f64, J>(&state.g, J::constant, &mut self.varied.g);
+        self.varied.mu.set_zero();
+        add_constant(&mut self.varied.mu, &state.mu);
     }
 
     /// $\Phi$ on the unknowns.
@@ -144,8 +143,9 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         let (t, h) = (J::constant(t), J::constant(h));
         read(&mut self.sweep, &self.unknowns);
         self.sweep.place::<R>(tableau, h);
-        self.sweep.evaluate::<R>(system, tableau, (t, h), &self.g);
-        self.sweep.gather(tableau, &self.mu, h);
+        self.sweep
+            .evaluate::<R>(system, tableau, (t, h), &self.varied.g);
+        self.sweep.gather(tableau, &self.varied.mu, h);
         write(&self.sweep, &mut self.unknowns);
     }
 
@@ -166,9 +166,8 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         variations: &mut [Variation<C::Group>],
     ) {
         self.renew::<R>((system, tableau), state, h, x);
-        let mut turn = self.g.clone();
         for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
-            self.seed(state, h, chunk, &mut turn);
+            self.varied.enter(state, h, chunk);
             for (unknown, x) in self.unknowns.iter_mut().zip(x) {
                 *unknown = J::constant(*x);
             }
@@ -188,51 +187,8 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             }
             read(&mut self.sweep, &self.unknowns);
             self.sweep.end::<R>(tableau, J::constant(h));
-            leave(&self.sweep, &turn, h, chunk);
-        }
-    }
-
-    /// $g \exp(\eta)$ and $\mu + \delta\mu + \frac h2 \delta F$, a direction for each variation; $\exp(\eta)$ into `turn`.
-    fn seed(
-        &mut self,
-        state: &State<C::Group>,
-        h: f64,
-        chunk: &[Variation<C::Group>],
-        turn: &mut Over<C::Group, J>,
-    ) {
-        let mut eta = self.g.zero_algebra();
-        for i in 0..eta.dim() {
-            let terms = chunk.iter().enumerate();
-            let (a, b) = terms.fold((J::constant(0.0), J::constant(0.0)), |(a, b), (d, v)| {
-                let along = |x: f64| J::variable(0.0, d) * J::constant(x);
-                let change = v.mu.get(i) + 0.5 * h * v.force.get(i);
-                (a + along(v.eta.get(i)), b + along(change))
-            });
-            eta.set(i, a);
-            self.mu.set(i, J::constant(state.mu.get(i)) + b);
-        }
-        Cayley::retract_into::<Over<C::Group, J>>(&eta, turn);
-        self.g = state.g.lift::<J>().compose(turn);
-    }
-}
-
-/// The variations at the end: of $g f$ by $f^{-1} \exp(\eta) f$, and of the momentum.
-fn leave<C: ContinuousSystem>(
-    sweep: &Sweep<C, J>,
-    turn: &Over<C::Group, J>,
-    h: f64,
-    chunk: &mut [Variation<C::Group>],
-) {
-    let still = C::Group::convert::<J, f64>(&sweep.f, Jet::value).lift::<J>();
-    let end = still.inverse().compose(&turn.compose(&sweep.f));
-    let eta = end.cayley_inverse().ok();
-    for (direction, variation) in chunk.iter_mut().enumerate() {
-        for i in 0..variation.eta.dim() {
-            let slope = |x: J| x.partial(direction);
-            let rate = eta.as_ref().map_or(f64::NAN, |eta| slope(eta.get(i)));
-            variation.eta.set(i, rate);
-            let impulse = 0.5 * h * variation.force.get(i);
-            variation.mu.set(i, slope(sweep.mu.get(i)) + impulse);
+            let Sweep { f, mu, .. } = &self.sweep;
+            self.varied.leave(f, mu, h, chunk);
         }
     }
 }
