@@ -29,8 +29,9 @@ macro_rules! compositions {
             order::<_, 6>(&lagrangian, &state, &[16, 24, 32]);
             order::<_, 8>(&lagrangian, &state, &$eighth);
             let mut integrator = Composition::<_, 8>::new(lagrangian);
-            laws::check_symplecticity(&mut integrator, &[state.clone()], 0.1).unwrap();
-            laws::check_reversibility(&mut integrator, &[state], 0.1).unwrap();
+            let states = [state];
+            laws::check_symplecticity(&mut integrator, &states, 0.1).unwrap();
+            laws::check_reversibility(&mut integrator, &states, 0.1).unwrap();
         }
     )+ };
 }

@@ -169,7 +169,7 @@ fn a_displacement_is_the_rotation_less_the_identity() {
         Vec3([0.3, -1.0, 0.7]),
         Mat3([[2.0, 0.1, 0.2], [0.1, 1.0, 0.3], [0.2, 0.3, 0.5]]),
     );
-    for angle in [0.0, 1e-9, 1e-4, 0.7, 1.9, 2.5, 3.0, 3.1415] {
+    for angle in [0.0, 1e-9, 1e-4, 0.7, 1.9, 2.5, 3.0, PI] {
         let r = SO3::exp(&Tangent([2.0, -3.0, 6.0].map(|c| c / 7.0 * angle)));
         let (e, matrix) = (r.displacement(), r.minus_identity());
         let size = f64::EPSILON * angle;
