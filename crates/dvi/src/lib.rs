@@ -1,23 +1,37 @@
-//! Discrete variational integrators on Lie groups: from a discrete Lagrangian to a stepping map.
+//! Variational integrators on Lie groups: from a Lagrangian to a stepping map, and the laws that it obeys.
 //!
-//! Write one value, $L_d(g_k, f_k)$, the action of a step from $g_k$ to $g_{k+1} = g_k f_k$. [`Variational`] steps it:
-//! the group, the symplectic form and the momentum maps are kept, because the map is the extremum of a discrete action.
+//! Write one value, the Lagrangian $L(g, \xi)$ or a discrete one $L_d(g_k, f_k)$, the action of a step from $g_k$ to
+//! $g_{k+1} = g_k f_k$. An integrator steps it: the group, the symplectic form and the momentum maps are kept, because the map
+//! is the extremum of a discrete action.
 //!
 //! | what | mathematics | code |
 //! |---|---|---|
-//! | discrete Lagrangian | $L_d(g, f)$ | [`DiscreteLagrangian::value`] |
+//! | Lagrangian, Legendre transform | $L(g, \xi)$, $\mu = \mathbf D_\xi L$ | [`Lagrangian`] |
+//! | discrete Lagrangian | $L_d(g, f)$ | [`DiscreteLagrangian::value`], or [`Lagrangian::discretise`] by a [`Quadrature`] rule |
 //! | its derivatives | $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$, $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$ | [`DiscreteLagrangian::derivatives`], by dual numbers unless given |
-//! | Hamiltonian form | $(g_k, \mu_k) \mapsto (g_{k+1}, \mu_{k+1})$ | [`Integrator::step`] |
+//! | Hamilton's equations | $\dot g = g \xi$, $\dot \mu = \mathrm{ad}^\ast_\xi \mu + \tau$ | [`ContinuousSystem`], or [`Lagrangian::hamiltonian`] |
+//! | forces | $f_d^-$, $f_d^+$; $F$ | [`DiscreteForce`], [`Force`], [`Forced`] |
+//!
+//! | integrator | order | symmetric | from |
+//! |---|---|---|---|
+//! | [`Variational`] | that of $L_d$ | where $L_d$ is | a discrete Lagrangian |
+//! | [`Composition`] | 2, 4, 6, 8 | yes | a discrete Lagrangian and its [`Adjoint`] |
+//! | [`Gauss`] | 2, 4, …, 16 | no | a continuous system |
+//!
+//! | of an integrator | mathematics | code |
+//! |---|---|---|
+//! | Hamiltonian form | $(g_k, \mu_k) \mapsto (g_{k+1}, \mu_{k+1})$ | [`Integrator::step`]; between steps, [`Integrator::peek`] |
 //! | Lagrangian form | $(g_k, f_k) \mapsto (g_{k+1}, f_{k+1})$, (25)–(26) | [`Variational::step_pair`] |
 //! | discrete Legendre transforms | $\mathbb F^- L_d$, $\mathbb F^+ L_d$ | [`legendre_minus`], [`legendre_plus`], [`Variational::displacement`] |
-//! | Lagrangian, Legendre transform | $L(g, \xi)$, $\mu = \mathbf D_\xi L$ | [`Lagrangian`] |
-//! | Hamilton's equations | $\dot g = g \xi$, $\dot \mu = \mathrm{ad}^\ast_\xi \mu + \tau$ | [`ContinuousSystem`] |
+//! | derivative of the flow | $\partial (g_T, \mu_T) / \partial (g_0, \mu_0, F)$ | [`FirstVariation::step_varied`] |
+//! | momentum map of a symmetry | $\langle \mu, g^{-1} \frac{d}{ds} \Phi_s(g) \rangle$ | [`Symmetry`], [`momentum_map`] |
+//! | laws | derivatives, order, symplecticity, reversibility, invariance | [`laws`] |
 //!
 //! Equation numbers are those of T. Lee, M. Leok, N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect
 //! fluid* (2009). The print of (25) has $\mathrm{Ad}^\ast_{f_{k+1}}$ where $\mathrm{Ad}^\ast_{f_{k+1}^{-1}}$ is meant.
 //!
 //! # How a step is solved
-//! The unknown is $c$ with $f_k = \tau(c)$, $\tau$ the Cayley map or the exponential. The balance of momenta is brought below
+//! For [`Gauss`] see there. Of a discrete Lagrangian, the unknown is $c$ with $f_k = \tau(c)$, $\tau$ the Cayley map or the exponential. The balance of momenta is brought below
 //! a tolerance relative to the momentum, starting from an extrapolation of the steps before, by one of two iterations:
 //! [`Variational::new`] takes Newton's matrix from dual numbers and keeps it until convergence slows;
 //! [`Variational::with_inertia`] takes the inertia of a model that solves it fast ([`Inertia`]).
