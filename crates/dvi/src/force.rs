@@ -86,6 +86,16 @@ pub trait DiscreteForce {
         f: &Over<Self::Group, S>,
         h: S,
     ) -> [DualOver<Self::Group, S>; 2];
+
+    /// The order of the forces: that of a forced step is at most this.
+    fn order(&self) -> u32 {
+        1
+    }
+
+    /// Whether they are the same read backwards: $f_d^\pm(t, g, f, h) = -f_d^\mp(t + h, g f, f^{-1}, -h)$.
+    fn is_symmetric(&self) -> bool {
+        false
+    }
 }
 
 /// The force at the middle acts on both ends by half, each moved there by $\mathrm{Ad}^\ast$; so it keeps every momentum map
@@ -117,6 +127,14 @@ impl<F: Force, Q: Quadrature, R: Retraction> DiscreteForce for Discretised<F, Q,
             }
         }
         impulses
+    }
+
+    fn order(&self) -> u32 {
+        Q::ORDER
+    }
+
+    fn is_symmetric(&self) -> bool {
+        Q::SYMMETRIC
     }
 }
 
@@ -182,11 +200,11 @@ where
     }
 
     fn order(&self) -> u32 {
-        self.system.order()
+        self.system.order().min(self.force.order())
     }
 
     fn is_symmetric(&self) -> bool {
-        self.system.is_symmetric()
+        self.system.is_symmetric() && self.force.is_symmetric()
     }
 
     fn is_symplectic(&self) -> bool {

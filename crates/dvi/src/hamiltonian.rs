@@ -8,13 +8,18 @@ use crate::{ContinuousSystem, Lagrangian, State};
 
 /// Newton iterations before a momentum is taken to have no velocity.
 const MAX_ITERATIONS: u32 = 50;
+/// A residual of rounding, relative to the terms that it is the difference of.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// The shortest part of a correction that is tried.
+const SHORTEST: f64 = 1e-6;
 /// A correction this small, relative to the velocity, leaves an error of rounding: convergence is quadratic.
 const CONVERGED: f64 = 1e-8;
 
 /// The Hamiltonian system of a Lagrangian, $\mu = \mathbf D_\xi L$, by dual numbers.
 ///
 /// The velocity comes from Newton's method on the Legendre transform, with the Hessian $\mathbf D_\xi^2 L$: exact after one
-/// iteration where the kinetic energy is quadratic. Where the Hessian is singular there is no velocity, and the answer is not a number.
+/// iteration where the kinetic energy is quadratic. Where the Hessian is singular, at the velocity or at zero, where the iteration
+/// starts, or where there is no such velocity, the answer is not a number.
 ///
 /// ```
 /// use dvi::{Lagrangian, State};
@@ -104,28 +109,46 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
         }
     }
 
-    /// Fills `xi` and factorises the Hessian there; false where the iteration does not converge.
+    /// Fills `xi` and factorises the Hessian near it; false where the iteration does not converge.
+    ///
+    /// A correction that makes the residual larger, or leaves the domain of $L$, is halved.
     fn invert(&mut self, lagrangian: &L, t: S, mu: impl Fn(usize) -> S) -> bool {
         L::Group::convert_into::<S, Twice<S>>(&self.g, twice, &mut self.twice);
         self.xi.set_zero();
+        let (mut last, mut part) = (f64::INFINITY, 1.0);
+        let mut delta = self.rhs.clone();
         for _ in 0..MAX_ITERATIONS {
             self.differentiate(lagrangian, t);
+            let (mut residual, mut size) = (0.0_f64, 0.0_f64);
             for (i, entry) in self.rhs.iter_mut().enumerate() {
                 *entry = mu(i) - self.gradient.get(i);
+                residual = larger(residual, entry.magnitude());
+                size = larger(size, mu(i).magnitude() + self.gradient.get(i).magnitude());
+            }
+            if part > SHORTEST && (residual.is_nan() || residual > 2.0 * last) {
+                part *= 0.5;
+                self.correct(&delta, -part);
+                continue;
             }
             self.hessian.factorise();
             self.hessian.solve(&mut self.rhs);
-            let (mut correction, mut size) = (0.0_f64, 0.0_f64);
-            for (i, delta) in self.rhs.iter().enumerate() {
-                self.xi.set(i, self.xi.get(i) + *delta);
-                correction = correction.max(delta.magnitude());
-                size = size.max(self.xi.get(i).magnitude());
-            }
-            if correction <= CONVERGED * size {
+            delta.copy_from_slice(&self.rhs);
+            self.correct(&delta, 1.0);
+            (last, part) = (residual, 1.0);
+            let correction = delta.iter().fold(0.0, |max, d| larger(max, d.magnitude()));
+            let rounding = residual <= ROUNDING * size && correction.is_finite();
+            if rounding || correction <= CONVERGED * self.xi.max_magnitude() {
                 return true;
             }
         }
         false
+    }
+
+    /// Moves the iterate by a part of a correction.
+    fn correct(&mut self, delta: &[S], part: f64) {
+        for (i, delta) in delta.iter().enumerate() {
+            self.xi.set(i, self.xi.get(i) + delta.times(part));
+        }
     }
 
     /// Fills the gradient and the Hessian at `xi`.
@@ -190,7 +213,12 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
             let real = S::from_real(work.newton.xi.get(i));
             xi.set(i, if solved { real } else { S::from_f64(f64::NAN) });
         }
-        for _ in 0..S::DUAL_LEVELS {
+        // One more than the levels: the Hessian is that of the last iterate but one.
+        let levels = match S::DUAL_LEVELS {
+            0 => 0,
+            levels => levels + 1,
+        };
+        for _ in 0..levels {
             work.differentiate(&self.0, t, xi);
             for (i, entry) in work.rhs.iter_mut().enumerate() {
                 *entry = mu.get(i) - work.gradient.get(i);
@@ -233,4 +261,9 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     fn fits(&self, g: &L::Group) -> bool {
         self.0.fits(g)
     }
+}
+
+/// The larger of the two, not a number where one is not.
+fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
 }

@@ -129,12 +129,14 @@ pub(crate) fn is_degenerate<L: DiscreteLagrangian>(
     state: &State<L::Group>,
     h: f64,
 ) -> bool {
+    const VANISHING: f64 = 1e-8;
     let g = state.g.lift::<J>();
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
     let mut derivatives = Derivatives::new(&g);
     let dim = c.dim();
     let mut inertia = Factorisation::new(dim);
-    let (t, h) = (J::constant(state.t), J::constant(h));
+    // So short a step that a potential is rounding beside the inertia.
+    let (t, h) = (J::constant(state.t), J::constant(VANISHING * h));
     for_each_chunk(dim, |first| {
         lie::seed(&mut c, first);
         Over::<L::Group, J>::cayley_into(&c, &mut f);

@@ -63,7 +63,7 @@ rule! {
     Trapezoid, "trapezoidal", 2, true, [(0.5, Place::Start), (0.5, Place::End)]
 }
 
-/// A continuous Lagrangian or force made discrete: the rule `Q` along the curve of constant velocity in the retraction `R`.
+/// A continuous Lagrangian or force made discrete by the rule `Q`, with one velocity for the whole step by the retraction `R`.
 ///
 /// With $\xi = \tau^{-1}(f)/h$, $L_d(t, g, f) = h \sum_i b_i L(t + c_i h, g f^{c_i}, \xi)$. Where $f$ is outside the
 /// retraction's chart, a turn by $\pi$, the value is not a number and the step is refused.

@@ -19,8 +19,9 @@ pub struct Variation<G: RealGroup> {
     pub eta: G::Algebra,
     /// $\delta \mu$.
     pub mu: G::Dual,
-    /// $\delta F$: a change of the force, in N m, the same in every step until it is set anew. It acts by the impulses
-    /// $f_d^- = f_d^+ = \frac h2 \delta F$; an impulse at one time is a change of [`mu`](Self::mu) there.
+    /// $\delta F$: a change of the force, in N m, the same in every step until it is set anew. In the step of a discrete Lagrangian it
+    /// acts by the impulses $f_d^- = f_d^+ = \frac h2 \delta F$, in [`Gauss`](crate::Gauss) at the stages, as
+    /// [`Forced`](crate::Forced) does. An impulse at one time is a change of [`mu`](Self::mu) there.
     pub force: G::Dual,
 }
 
@@ -149,7 +150,9 @@ impl<G: RealGroup> Linearised<G> {
     ) {
         StepSolver::<L>::renew::<R>(&mut self.newton, lagrangian, state, h, c);
         for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
-            self.varied.enter(state, h, chunk);
+            self.varied.enter(state, chunk);
+            let (mu, force) = (&mut self.varied.mu, &self.varied.force);
+            mu.add_scaled(J::constant(0.5 * h), force);
             self.c.set_zero();
             add_constant(&mut self.c, c);
             self.evaluate::<L, R>(lagrangian, state.t, h);
@@ -158,7 +161,10 @@ impl<G: RealGroup> Linearised<G> {
             }
             self.evaluate::<L, R>(lagrangian, state.t, h);
             let (f, mu) = (&self.balance.f, &self.balance.transported);
-            self.varied.leave(f, mu, h, chunk);
+            self.varied.leave(f, mu, chunk);
+            for variation in chunk {
+                variation.mu.add_scaled(0.5 * h, &variation.force);
+            }
         }
     }
 
@@ -195,8 +201,10 @@ pub(crate) struct Varied<G: RealGroup> {
     turn: Over<G, J>,
     /// $g \exp(\eta)$.
     pub(crate) g: Over<G, J>,
-    /// $\mu + \delta\mu + \frac h2 \delta F$.
+    /// $\mu + \delta\mu$.
     pub(crate) mu: DualOver<G, J>,
+    /// $\delta F$.
+    pub(crate) force: DualOver<G, J>,
 }
 
 impl<G: RealGroup> Varied<G> {
@@ -205,6 +213,7 @@ impl<G: RealGroup> Varied<G> {
         Self {
             turn: g.clone(),
             mu: g.zero_dual(),
+            force: g.zero_dual(),
             g,
         }
     }
@@ -213,7 +222,7 @@ impl<G: RealGroup> Varied<G> {
         self.g.same_shape(&g.lift::<J>())
     }
 
-    pub(crate) fn enter(&mut self, state: &State<G>, h: f64, chunk: &[Variation<G>]) {
+    pub(crate) fn enter(&mut self, state: &State<G>, chunk: &[Variation<G>]) {
         let along = |part: &dyn Fn(&Variation<G>) -> f64| {
             let terms = chunk.iter().enumerate();
             terms.fold(J::constant(0.0), |sum, (direction, variation)| {
@@ -223,21 +232,17 @@ impl<G: RealGroup> Varied<G> {
         let mut eta = self.g.zero_algebra();
         for i in 0..eta.dim() {
             eta.set(i, along(&|variation| variation.eta.get(i)));
-            let change = along(&|variation| variation.mu.get(i) + 0.5 * h * variation.force.get(i));
+            let change = along(&|variation| variation.mu.get(i));
             self.mu.set(i, J::constant(state.mu.get(i)) + change);
+            self.force
+                .set(i, along(&|variation| variation.force.get(i)));
         }
         Cayley::retract_into::<Over<G, J>>(&eta, &mut self.turn);
         self.g = state.g.lift::<J>().compose(&self.turn);
     }
 
     /// The variations at the end: of $g f$ by $f^{-1} \exp(\eta) f$, and of the momentum there.
-    pub(crate) fn leave(
-        &self,
-        f: &Over<G, J>,
-        mu: &DualOver<G, J>,
-        h: f64,
-        chunk: &mut [Variation<G>],
-    ) {
+    pub(crate) fn leave(&self, f: &Over<G, J>, mu: &DualOver<G, J>, chunk: &mut [Variation<G>]) {
         let still = G::convert::<J, f64>(f, Jet::value).lift::<J>();
         let end = still.inverse().compose(&self.turn.compose(f));
         let eta = end.cayley_inverse().ok();
@@ -246,8 +251,7 @@ impl<G: RealGroup> Varied<G> {
                 let slope = |x: J| x.partial(direction);
                 let rate = eta.as_ref().map_or(f64::NAN, |eta| slope(eta.get(i)));
                 variation.eta.set(i, rate);
-                let impulse = 0.5 * h * variation.force.get(i);
-                variation.mu.set(i, slope(mu.get(i)) + impulse);
+                variation.mu.set(i, slope(mu.get(i)));
             }
         }
     }

@@ -266,6 +266,28 @@ impl Lagrangian for Needle {
     }
 }
 
+/// A point mass on a rod: its weight pulls in the direction that has no inertia too.
+struct PointMass;
+
+impl Lagrangian for PointMass {
+    type Group = SO3;
+
+    fn value<S: Scalar>(&self, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
+        let rod = LEVER.lift();
+        let speed = omega.vec3().cross(rod);
+        speed.norm_squared().times(0.5) - r.rotate(rod)[2]
+    }
+}
+
+#[test]
+fn a_potential_does_not_hide_a_missing_inertia() {
+    let verdict = laws::check(&PointMass.discretise::<Midpoint>(), &[top()], 0.05);
+    assert!(
+        matches!(verdict, Err(LawError::Degenerate { .. })),
+        "{verdict:?}"
+    );
+}
+
 #[test]
 fn a_refused_step_is_passed_on_and_the_degenerate_is_named() {
     let verdict = laws::check_step(
@@ -273,6 +295,11 @@ fn a_refused_step_is_passed_on_and_the_degenerate_is_named() {
         &Needle.discretise::<Midpoint>(),
         &[top()],
         0.05,
+    );
+    let degenerate = laws::check(&Needle.discretise::<Midpoint>(), &[top()], 0.05);
+    assert!(
+        matches!(degenerate, Err(LawError::Degenerate { .. })),
+        "{degenerate:?}"
     );
     let Err(LawError::Step(error)) = verdict else {
         panic!("{verdict:?}");

@@ -161,6 +161,20 @@ impl<T: Scalar> Scalar for DualNumber<T> {
         self.chain(root, T::from_f64(0.5) / root)
     }
     #[inline(always)]
+    fn exp(self) -> Self {
+        let power = self.value.exp();
+        self.chain(power, power)
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.chain(self.value.ln(), T::one() / self.value)
+    }
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        let tanh = self.value.tanh();
+        self.chain(tanh, T::one() - tanh * tanh)
+    }
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
         (self.chain(sin, cos), self.chain(cos, -sin))
@@ -223,7 +237,8 @@ mod tests {
     fn formula<S: Scalar>(x: S, y: S) -> S {
         let (sin, cos) = (x * y).sin_cos();
         let mut sum = (x * x + y).sqrt().times(1.5) / (S::from_f64(2.0) + sin) - cos * -x;
-        sum += x.atan2(y) * y;
+        sum += x.atan2(y) * y + Scalar::tanh(x - y) * Scalar::exp(y * x);
+        sum += Scalar::ln(x + y + S::one()) * Scalar::powi(x, 3) + Scalar::sin(x) * Scalar::cos(y);
         sum -= (x * S::from_f64(7.0)) % (y + S::one());
         let mask = x.less(y);
         S::select(mask, sum * x, sum / x)

@@ -32,6 +32,14 @@ impl<const N: usize, S: Scalar> Default for Rn<N, S> {
     }
 }
 
+impl<const N: usize, S> core::ops::Index<usize> for Rn<N, S> {
+    type Output = S;
+    #[inline(always)]
+    fn index(&self, i: usize) -> &S {
+        &self.0[i]
+    }
+}
+
 impl<S: Scalar> R3<S> {
     /// The coordinates as a vector.
     #[inline(always)]

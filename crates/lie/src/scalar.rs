@@ -64,8 +64,35 @@ pub trait Scalar:
     /// The square root.
     fn sqrt(self) -> Self;
 
+    /// $e^x$.
+    fn exp(self) -> Self;
+
+    /// The natural logarithm.
+    fn ln(self) -> Self;
+
+    /// The hyperbolic tangent: a smooth sign, for friction say.
+    fn tanh(self) -> Self;
+
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
+
+    /// The sine.
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+
+    /// The cosine.
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+
+    /// $x^n$ for a whole $n \ge 0$, by products.
+    #[inline(always)]
+    fn powi(self, n: u32) -> Self {
+        (0..n).fold(Self::one(), |power, _| power * self)
+    }
 
     /// The angle of the point `(x, self)` in the plane, in $(-\pi, \pi]$.
     fn atan2(self, x: Self) -> Self;
@@ -130,6 +157,18 @@ macro_rules! float {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 $float::sqrt(self)
+            }
+            #[inline(always)]
+            fn exp(self) -> Self {
+                $float::exp(self)
+            }
+            #[inline(always)]
+            fn ln(self) -> Self {
+                $float::ln(self)
+            }
+            #[inline(always)]
+            fn tanh(self) -> Self {
+                $float::tanh(self)
             }
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {

@@ -51,6 +51,12 @@ impl<S: Scalar> SE2<S> {
         }
     }
 
+    /// $R y + x$: where the point `y` of the body is.
+    #[inline(always)]
+    pub fn act(&self, y: [S; 2]) -> [S; 2] {
+        add(self.rotation.rotate(y), self.translation)
+    }
+
     /// $(1 - \omega J/2)^{-1} v = \frac{1}{1 + \omega^2/4} (1 + \omega J/2) v$.
     #[inline(always)]
     fn cayley_translation(w: S, v: [S; 2]) -> [S; 2] {

@@ -46,6 +46,12 @@ impl<S: Scalar> SE3<S> {
         }
     }
 
+    /// $R y + x$: where the point `y` of the body is.
+    #[inline(always)]
+    pub fn act(&self, y: Vec3<S>) -> Vec3<S> {
+        self.rotation.rotate(y) + self.translation
+    }
+
     /// $(1 - \hat\omega/2)^{-1} v = \frac{1}{1 + |\omega|^2/4} \left(1 + \frac12 \hat\omega + \frac14 \omega\omega^T\right) v$.
     #[inline(always)]
     fn cayley_translation(w: Vec3<S>, v: Vec3<S>) -> Vec3<S> {

@@ -25,8 +25,8 @@ use update::Update;
 ///
 /// It is the extremum of the discrete Lagrangian
 /// $L_d(g_k, f) = \operatorname{ext} h \sum_i b_i L(t_i, g_k \tau(c_i), \mathrm d\tau_{c_i} \dot c_i)$ over the rates $\dot c_i$ with
-/// $c_i = h \sum_j a_{ij} \dot c_j$ and $f = \tau(h \sum_j b_j \dot c_j)$: symplectic, and with the momentum maps of its symmetries, by
-/// construction. In the Hamiltonian form that it is solved in, with velocities $\xi_i$ and forces $\tau_i$ of the
+/// $c_i = h \sum_j a_{ij} \dot c_j$ and $f = \tau(h \sum_j b_j \dot c_j)$: symplectic by construction, and with the momentum maps of the
+/// symmetries that it inherits: translations of the group, and its automorphisms that the retraction commutes with, such as a turn of space on a direct product. In the Hamiltonian form that it is solved in, with velocities $\xi_i$ and forces $\tau_i$ of the
 /// [`ContinuousSystem`] at $(g_i, \mu_i)$:
 ///
 /// $$ P = \mu_k + h \sum_i b_i \mathrm{Ad}^\ast_{f_i^{-1}} \tau_i, \qquad \mu_{k+1} = \mathrm{Ad}^\ast_f P, \qquad \pi_1 = (\mathrm d\tau_{c_1})^\ast \mu_{k+1}, $$
@@ -38,7 +38,7 @@ use update::Update;
 ///
 /// The stages are iterated to rounding, unless a [tolerance](Self::with_tolerance) is set: all of them in one sweep, starting from the velocities and forces of
 /// the step before. A step too long for that is solved by Newton's method. Momenta are summed in the frame of the
-/// identity with compensation, and so are the numbers of the configuration. After the first step none allocates, but for the first that needs Newton's method.
+/// identity with compensation (but where $x \times p$ outweighs the rest, far from the origin), and so are the numbers of the configuration. After the first step none allocates, but for the first that needs Newton's method.
 ///
 /// ```
 /// use dvi::{Gauss, Integrator, Lagrangian};
@@ -140,7 +140,8 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
 
     /// The largest error of a solved step that is left by iterating, estimated and relative; zero, the default, iterates to rounding.
     ///
-    /// Momentum maps do not feel it; energy does, where it is looser than the method's own error of a step.
+    /// Momentum maps of left translations, and of cyclic coordinates, do not feel it; those of other symmetries and the energy do, where it
+    /// is looser than the method's own error of a step.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
         self
@@ -218,7 +219,7 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
             ..
         } = &mut **work;
         drift.set_sum(start, -1.0, &state.mu);
-        let next = update.advance(state, h, &sweep.f, &sweep.impulse);
+        let next = update.advance(state, h, (&sweep.f, &sweep.impulse, &sweep.mu));
         state.copy_from(next.ok_or(refused)?);
         predictor.record(h, sweep);
         self.steps += 1;
@@ -233,7 +234,7 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Integrator for Gauss<C,
         2 * S as u32
     }
 
-    /// The chart is centred at the step's start: the same step backwards is another of the same order.
+    /// In general not: the chart is centred at the step's start, and the same step backwards is another of the same order.
     fn is_symmetric(&self) -> bool {
         false
     }

@@ -111,6 +111,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         x: &[f64],
     ) {
         self.set_state(state);
+        self.sweep.extra_force.set_zero();
         for first in (0..x.len()).step_by(lie::JET_DIRECTIONS) {
             for (i, (unknown, x)) in self.unknowns.iter_mut().zip(x).enumerate() {
                 *unknown = match i.checked_sub(first) {
@@ -167,7 +168,8 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     ) {
         self.renew::<R>((system, tableau), state, h, x);
         for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
-            self.varied.enter(state, h, chunk);
+            self.varied.enter(state, chunk);
+            self.sweep.extra_force.copy_from(&self.varied.force);
             for (unknown, x) in self.unknowns.iter_mut().zip(x) {
                 *unknown = J::constant(*x);
             }
@@ -188,7 +190,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             read(&mut self.sweep, &self.unknowns);
             self.sweep.end::<R>(tableau, J::constant(h));
             let Sweep { f, mu, .. } = &self.sweep;
-            self.varied.leave(f, mu, h, chunk);
+            self.varied.leave(f, mu, chunk);
         }
     }
 }

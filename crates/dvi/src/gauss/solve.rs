@@ -4,6 +4,7 @@ use lie::{RealGroup, Retraction, VectorSpace};
 
 use super::Work;
 use super::newton::{SweepNewton, read, write};
+use super::sweep::Stage;
 use super::tableau::Tableau;
 use crate::{ContinuousSystem, Hint, State, StepReport};
 
@@ -82,6 +83,7 @@ impl<C: ContinuousSystem> Work<C> {
         let h = self.shorter::<R>(method, start, tolerance);
         self.predictor.forget();
         self.update.forget();
+        self.drift.set_zero();
         Err(Failure::NotConverged(report, Hint::SmallerStep { h }))
     }
 
@@ -121,18 +123,16 @@ impl<C: ContinuousSystem> Work<C> {
         let known = self
             .predictor
             .guess::<C, R>((system, tableau), (state, h), &mut self.sweep);
+        let rates = |stage: &Stage<C::Group, f64>| {
+            stage.xi.max_magnitude().is_finite() && stage.tau.max_magnitude().is_finite()
+        };
+        if !known && !self.sweep.stages.iter().all(rates) {
+            return Err(Failure::NotFinite);
+        }
         let sweep = &mut self.sweep;
         sweep.evaluate::<R>(system, tableau, (state.t, h), &state.g);
         sweep.gather(tableau, &state.mu, h);
-        let finite = sweep.momentum.max_magnitude().is_finite()
-            && sweep
-                .stages
-                .iter()
-                .all(|s| s.c_dot.max_magnitude().is_finite());
-        if finite || known {
-            return Ok(());
-        }
-        Err(Failure::NotFinite)
+        Ok(())
     }
 
     /// Sweeps until the estimated error is below the tolerance, or rounding.
@@ -148,7 +148,6 @@ impl<C: ContinuousSystem> Work<C> {
     ) -> Result<Ended, Failure> {
         self.guess::<R>((system, tableau), (state, h))?;
         self.start.set_sum(&state.mu, 1.0, &self.drift);
-        let size = state.mu.max_magnitude();
         let enough = tolerance.max(8.0 * f64::EPSILON);
         let mut changes = Changes::default();
         let mut report = StepReport::default();
@@ -165,6 +164,8 @@ impl<C: ContinuousSystem> Work<C> {
             sweep.gather(tableau, &state.mu, h);
             sweep.end_to_start::<R>(tableau, h, wanted);
             start.add_scaled(-1.0, wanted);
+            // A body at rest has a momentum only in between.
+            let size = larger(state.mu.max_magnitude(), sweep.momentum.max_magnitude());
             let apart = relative(start.max_magnitude(), size);
             start.add_scaled(1.0, wanted);
             changes.push(self.change(h));
@@ -181,6 +182,7 @@ impl<C: ContinuousSystem> Work<C> {
                 changes = Changes::default();
             }
             if changes.diverge() {
+                report.residual = changes.best;
                 break;
             }
         }
@@ -237,7 +239,7 @@ impl<C: ContinuousSystem> Work<C> {
         write(&self.sweep, &mut newton.x);
         let (mut last, mut damping) = (f64::INFINITY, 1.0);
         let mut stale = !newton.fits(h);
-        let mut report = StepReport::default();
+        let (mut report, mut best) = (StepReport::default(), f64::INFINITY);
         for iterations in 1..=MAX_NEWTON {
             read(&mut self.sweep, &newton.x);
             self.remember();
@@ -246,12 +248,13 @@ impl<C: ContinuousSystem> Work<C> {
                 .evaluate::<R>(system, tableau, (state.t, h), &state.g);
             self.sweep.gather(tableau, &state.mu, h);
             let change = self.change(h);
+            best = best.min(change);
             report = StepReport {
                 iterations,
-                residual: change,
+                residual: best,
             };
             if is_solved(change, last, tolerance) {
-                self.sweep.end::<R>(tableau, h);
+                self.sweep.end_to_start::<R>(tableau, h, &mut self.start);
                 return Ended::Solved(report);
             }
             if damping > SHORTEST && (change.is_nan() || change > 2.0 * last) {
@@ -292,13 +295,10 @@ impl<C: ContinuousSystem> Work<C> {
     }
 }
 
-/// Whether the error that remains after a correction is below the tolerance, or rounding stands in the way.
+/// Whether a sweep that starts from Newton's iterate changes it no more: the iterate is what is returned, uncorrected.
 fn is_solved(change: f64, last: f64, tolerance: f64) -> bool {
-    let contraction = (change / last).min(1.0);
-    let remains = change * contraction / (1.0 - contraction);
     let stands = change < ROUNDING && change >= last;
-    let estimated = last.is_finite() && remains <= tolerance.max(EXHAUSTED[0]);
-    change <= EXHAUSTED[1] || stands || estimated
+    change <= tolerance.max(EXHAUSTED[1]) || stands
 }
 
 /// How much the last sweeps have changed.

@@ -72,6 +72,8 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Scalar> {
     pub(super) mu: DualOver<C::Group, S>,
     /// $\pi_1 = (\mathrm d\tau_{c_1})^\ast \mu_{k+1}$.
     pi: DualOver<C::Group, S>,
+    /// A change of the force, at every stage; zero but for variations.
+    pub(super) extra_force: DualOver<C::Group, S>,
     next_c: AlgebraOver<C::Group, S>,
     next_pi: DualOver<C::Group, S>,
     workspace: C::Workspace<S>,
@@ -87,6 +89,7 @@ impl<C: ContinuousSystem, S: Scalar> Sweep<C, S> {
             momentum: g.zero_dual(),
             mu: g.zero_dual(),
             pi: g.zero_dual(),
+            extra_force: g.zero_dual(),
             next_c: g.zero_algebra(),
             next_pi: g.zero_dual(),
             workspace: system.workspace::<S>(g),
@@ -172,6 +175,7 @@ impl<C: ContinuousSystem, S: Scalar> Sweep<C, S> {
             let (xi, tau) = (&mut stage.xi, &mut stage.tau);
             let t = t + h * S::from_f64(*node);
             system.velocity_and_force(t, &stage.g, &stage.mu, &mut self.workspace, xi, tau);
+            stage.tau.add_scaled(S::one(), &self.extra_force);
             stage.rates::<R>();
         }
     }

@@ -9,6 +9,10 @@ use crate::State;
 /// The compensated sum drifts off by rounding of the increments alone; a correction costs one rounding of the whole.
 const NORMALIZE_EVERY: u64 = 1024;
 
+/// Where the momentum in the frame of the identity is this much larger than in the body's, its sum would lose digits: far from
+/// the origin, $x \times p$ outweighs the rest on a semidirect product.
+const FAR: f64 = 8.0;
+
 /// What is carried from a step to the next beside the state.
 ///
 /// The momentum in the frame of the identity, $\mathrm{Ad}^\ast_{g_k^{-1}} \mu_k$, changes by the impulse alone and is
@@ -23,6 +27,7 @@ pub(super) struct Update<G: RealGroup> {
     increment: G::Dual,
     steps: u64,
     known: bool,
+    far: bool,
 }
 
 impl<G: RealGroup> Update<G> {
@@ -40,6 +45,7 @@ impl<G: RealGroup> Update<G> {
             increment: zero,
             steps: 0,
             known: false,
+            far: false,
             after,
         }
     }
@@ -49,16 +55,19 @@ impl<G: RealGroup> Update<G> {
         self.known = false;
     }
 
-    /// The state after the displacement `f` and the impulse, the latter in the frame of the step's start; `None` where a number is not finite.
+    /// The state after the displacement `f` and the impulse, the latter in the frame of the step's start, or with the momentum `transported`; `None` where a number is not finite.
     pub(super) fn advance(
         &mut self,
         state: &State<G>,
         h: f64,
-        f: &G,
-        impulse: &G::Dual,
+        (f, impulse, transported): (&G, &G::Dual, &G::Dual),
     ) -> Option<&State<G>> {
         if !(self.known && self.after.g == state.g && self.after.mu == state.mu) {
-            self.begin(state);
+            self.after.g.copy_from(&state.g);
+            self.carry = state.g.zero_carry();
+            self.begin_momentum(state);
+        } else if self.far {
+            self.begin_momentum(state);
         }
         state.g.inverse_coadjoint_into(impulse, &mut self.increment);
         self.add_increment();
@@ -71,13 +80,16 @@ impl<G: RealGroup> Update<G> {
         self.after
             .g
             .coadjoint_into(&self.spatial, &mut self.after.mu);
+        let (spatial, here) = (self.spatial.max_magnitude(), self.after.mu.max_magnitude());
+        self.far = spatial > FAR * here;
+        if self.far {
+            self.after.mu.copy_from(transported);
+        }
         self.known = self.after.g.is_finite() && self.after.mu.max_magnitude().is_finite();
         self.known.then_some(&self.after)
     }
 
-    fn begin(&mut self, state: &State<G>) {
-        self.after.g.copy_from(&state.g);
-        self.carry = state.g.zero_carry();
+    fn begin_momentum(&mut self, state: &State<G>) {
         state.g.inverse_coadjoint_into(&state.mu, &mut self.spatial);
         self.spatial_carry.set_zero();
     }

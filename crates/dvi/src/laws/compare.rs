@@ -66,3 +66,8 @@ impl Checker {
         })
     }
 }
+
+/// The larger of the two, not a number where one is not.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}

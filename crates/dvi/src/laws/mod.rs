@@ -48,6 +48,7 @@ mod symmetry;
 
 use thiserror::Error;
 
+use crate::newton::is_degenerate;
 use crate::{DiscreteLagrangian, State, StepError, Variational};
 use compare::Checker;
 
@@ -99,9 +100,17 @@ pub enum LawError {
         /// The largest difference that rounding and the solver's tolerance explain.
         tolerance: f64,
     },
+    /// The kinetic energy has no inertia in some direction of the velocity.
+    #[error(
+        "the Lagrangian is degenerate: its kinetic energy has no inertia in some direction of the velocity, so a momentum there has no velocity; give it a small one, as a point mass on a rod needs about the rod (for {case})"
+    )]
+    Degenerate {
+        /// The state it was tried at.
+        case: String,
+    },
     /// The observed order is not the declared one.
     #[error(
-        "the observed order is {observed:.3}, the declared one {declared}; step sizes and errors: {errors:?}"
+        "the observed order is {observed:.3}, the declared one {declared}; step sizes and errors: {errors:?}; a higher one is that of steps too long for the motion"
     )]
     Order {
         /// What the integrator declares.
@@ -122,6 +131,7 @@ type Outcome = Result<(), LawError>;
 ///
 /// - the derivatives $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$ and $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$
 ///   against dual numbers and central differences of the value;
+/// - an inertia in every direction of the velocity;
 /// - where declared symmetric, $L_d(t, g, f, h) = -L_d(t + h, g f, f^{-1}, -h)$;
 /// - of the step: both discrete Legendre transforms against the momenta ([`check_step`]), symplecticity
 ///   ([`check_symplecticity`]) and, where declared symmetric, reversibility ([`check_reversibility`]).
@@ -139,6 +149,10 @@ pub fn check<L: DiscreteLagrangian>(
     let mut checker = Checker::default();
     for state in states {
         derivatives::check(&mut checker, lagrangian, state, h)?;
+        if is_degenerate(lagrangian, state, h) {
+            let case = format!("{state:?}");
+            return Err(LawError::Degenerate { case });
+        }
     }
     let mut integrator = Variational::new(lagrangian);
     for state in states {

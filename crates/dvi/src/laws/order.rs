@@ -3,6 +3,7 @@
 use lie::{RealGroup, VectorSpace};
 
 use super::LawError;
+use super::compare::larger;
 use super::steps::difference;
 use crate::{Integrator, State};
 
@@ -47,7 +48,8 @@ pub fn observed_order<I: Integrator>(
         let h = until / f64::from(n);
         let error = distance(&run(n)?, &run(n.saturating_mul(2))?);
         all.push((h, error));
-        if error > PLATEAU * f64::from(n).sqrt() {
+        // What is not a number is no plateau, and spoils the fit.
+        if error.is_nan() || error > PLATEAU * f64::from(n).sqrt() {
             errors.push((h, error));
         }
     }
@@ -87,7 +89,7 @@ fn distance<G: RealGroup>(a: &State<G>, b: &State<G>) -> f64 {
     let mut momentum = a.mu.clone();
     momentum.add_scaled(-1.0, &b.mu);
     let size = a.mu.norm_squared().max(f64::MIN_POSITIVE);
-    turn.max((momentum.norm_squared() / size).sqrt())
+    larger(turn, (momentum.norm_squared() / size).sqrt())
 }
 
 fn slope(errors: &[(f64, f64)]) -> f64 {

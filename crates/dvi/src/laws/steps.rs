@@ -2,7 +2,7 @@
 
 use lie::{LieGroup, RealGroup, VectorSpace};
 
-use super::compare::{Checker, ROUNDING};
+use super::compare::{Checker, ROUNDING, larger};
 use super::{LawError, Outcome, Report, examples};
 use crate::{
     DiscreteLagrangian, FirstVariation, Integrator, State, Variation, legendre_minus,
@@ -96,7 +96,7 @@ pub fn symplectic_defect<I: FirstVariation>(
 ) -> Result<f64, LawError> {
     let mut worst = 0.0_f64;
     for_each_pair(integrator, state, h, |_, (before, after)| {
-        worst = worst.max((after - before).abs());
+        worst = larger(worst, (after - before).abs());
         Ok(())
     })?;
     Ok(worst)
