@@ -1,5 +1,7 @@
 //! A user's own group: the required items alone, proved by the law suite; and wrong ones, caught by it.
 
+use core::cell::Cell;
+
 use lie::laws::{self, LawError};
 use lie::{
     Cotangent, LieGroup, NotUnique, OutsideChart, Over, Retraction, SE3, SO3, Scalar, Tangent,
@@ -87,15 +89,24 @@ fn the_required_items_alone_make_a_group() {
 
 /// The algebra of SE(3), with one deliberate mistake.
 #[derive(Clone, Debug, PartialEq)]
-struct Twist<const MISTAKE: u8, S = f64>(Tangent<6, S>);
+struct Twist<S = f64>(Tangent<6, S>);
 
 /// The dual of it, likewise.
 #[derive(Clone, Debug, PartialEq)]
-struct Wrench<const MISTAKE: u8, S = f64>(Cotangent<6, S>);
+struct Wrench<S = f64>(Cotangent<6, S>);
 
 /// SE(3) without closed forms of the exponential's differential, and with one deliberate mistake.
 #[derive(Clone, Debug, PartialEq)]
-struct Slow<const MISTAKE: u8, S = f64>(SE3<S>);
+struct Slow<S = f64>(SE3<S>);
+
+thread_local! {
+    /// The mistake that is made in this test's thread: at run time, so that the laws are compiled once.
+    static MISTAKE: Cell<u8> = const { Cell::new(NONE) };
+}
+
+fn mistake() -> u8 {
+    MISTAKE.get()
+}
 
 const NONE: u8 = 0;
 const COADJOINT: u8 = 1;
@@ -149,7 +160,7 @@ const SCALE: u8 = 7;
 /// A vector space by its coordinates, with the mistake `M - $first`.
 macro_rules! mistaken_vectors {
     ($name:ident, $first:ident) => {
-        impl<const M: u8, S: Scalar> VectorSpace for $name<M, S> {
+        impl<S: Scalar> VectorSpace for $name<S> {
             type Scalar = S;
             fn dim(&self) -> usize {
                 6
@@ -161,41 +172,41 @@ macro_rules! mistaken_vectors {
                 self.0.set(i, value);
             }
             fn write(&self, out: &mut [S]) {
-                if M != $first + WRITE {
+                if mistake() != $first + WRITE {
                     self.0.write(out);
                 }
             }
             fn read(&mut self, from: &[S]) {
-                if M != $first + READ {
+                if mistake() != $first + READ {
                     self.0.read(from);
                 }
             }
             fn set_zero(&mut self) {
-                if M != $first + SET_ZERO {
+                if mistake() != $first + SET_ZERO {
                     self.0.set_zero();
                 }
             }
             fn scale(&mut self, a: S) {
-                if M != $first + SCALE {
+                if mistake() != $first + SCALE {
                     self.0.scale(a);
                 }
             }
             fn add_scaled(&mut self, a: S, y: &Self) {
-                if M != $first + ADD_SCALED {
+                if mistake() != $first + ADD_SCALED {
                     self.0.add_scaled(a, &y.0);
                 }
             }
             fn set_sum(&mut self, x: &Self, a: S, y: &Self) {
-                if M != $first + SET_SUM {
+                if mistake() != $first + SET_SUM {
                     self.0.set_sum(&x.0, a, &y.0);
                 }
             }
             fn norm_squared(&self) -> f64 {
-                let wrong = f64::from(M == $first + NORM);
+                let wrong = f64::from(mistake() == $first + NORM);
                 self.0.norm_squared() + wrong
             }
             fn max_magnitude(&self) -> f64 {
-                let wrong = f64::from(M == $first + MAX);
+                let wrong = f64::from(mistake() == $first + MAX);
                 self.0.max_magnitude() + wrong
             }
         }
@@ -218,7 +229,7 @@ fn long_way<S: Scalar>(xi: &Tangent<6, S>) -> S {
     S::select(far, factor, S::one())
 }
 
-impl<const M: u8, S: Scalar> Slow<M, S> {
+impl<S: Scalar> Slow<S> {
     /// The logarithm of $\exp\xi$ the other way round where $\theta > 1$.
     fn long_logarithm(xi: Tangent<6, S>) -> Tangent<6, S> {
         let (w, v) = xi.split();
@@ -232,7 +243,7 @@ impl<const M: u8, S: Scalar> Slow<M, S> {
     /// The logarithm of SE(3), with the mistake.
     fn mistaken_log(xi: Tangent<6, S>) -> Tangent<6, S> {
         let (w, _) = xi.split();
-        match M {
+        match mistake() {
             LOG_ZERO_FAR if w.norm_squared().magnitude() > 2.0 => Tangent::zero(),
             LOG_LONG_WAY => Self::long_logarithm(xi),
             LOG_INFINITE if w.norm_squared().magnitude() > 1.0 => times(f64::INFINITY, xi),
@@ -241,22 +252,26 @@ impl<const M: u8, S: Scalar> Slow<M, S> {
     }
 }
 
-impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
+impl<S: Scalar> LieGroup for Slow<S> {
     type Scalar = S;
-    type Algebra = Twist<M, S>;
-    type Dual = Wrench<M, S>;
-    type WithScalar<T: Scalar> = Slow<M, T>;
+    type Algebra = Twist<S>;
+    type Dual = Wrench<S>;
+    type WithScalar<T: Scalar> = Slow<T>;
 
-    fn zero_algebra(&self) -> Twist<M, S> {
-        Twist(Tangent([S::from_f64(f64::from(M == ZERO_ALGEBRA)); 6]))
+    fn zero_algebra(&self) -> Twist<S> {
+        Twist(Tangent(
+            [S::from_f64(f64::from(mistake() == ZERO_ALGEBRA)); 6],
+        ))
     }
-    fn zero_dual(&self) -> Wrench<M, S> {
-        Wrench(Cotangent([S::from_f64(f64::from(M == ZERO_DUAL)); 6]))
+    fn zero_dual(&self) -> Wrench<S> {
+        Wrench(Cotangent(
+            [S::from_f64(f64::from(mistake() == ZERO_DUAL)); 6],
+        ))
     }
     fn identity_like(&self) -> Self {
         Self(SE3::identity())
     }
-    fn convert<A: Scalar, B: Scalar>(g: &Slow<M, A>, f: impl Fn(A) -> B + Copy) -> Over<Self, B> {
+    fn convert<A: Scalar, B: Scalar>(g: &Slow<A>, f: impl Fn(A) -> B + Copy) -> Over<Self, B> {
         Slow(<SE3<S> as LieGroup>::convert(&g.0, f))
     }
     fn compose(&self, h: &Self) -> Self {
@@ -264,44 +279,44 @@ impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
     }
     fn inverse(&self) -> Self {
         let mut inverse = self.0.inverse();
-        if M == INVERSE {
+        if mistake() == INVERSE {
             inverse.translation = -self.0.translation;
         }
         Self(inverse)
     }
-    fn exp(xi: &Twist<M, S>) -> Self {
+    fn exp(xi: &Twist<S>) -> Self {
         Self(SE3::exp(&xi.0))
     }
-    fn log(&self) -> Result<Twist<M, S>, NotUnique<Twist<M, S>>> {
+    fn log(&self) -> Result<Twist<S>, NotUnique<Twist<S>>> {
         match self.0.log() {
-            Ok(xi) if M != LOG_NEVER_UNIQUE => Ok(Twist(Self::mistaken_log(xi))),
+            Ok(xi) if mistake() != LOG_NEVER_UNIQUE => Ok(Twist(Self::mistaken_log(xi))),
             Ok(representative) | Err(NotUnique { representative }) => Err(NotUnique {
                 representative: Twist(representative),
             }),
         }
     }
-    fn adjoint(&self, xi: &Twist<M, S>) -> Twist<M, S> {
-        Twist(match M {
+    fn adjoint(&self, xi: &Twist<S>) -> Twist<S> {
+        Twist(match mistake() {
             ADJOINT => self.0.inverse().adjoint(&xi.0),
             _ => self.0.adjoint(&xi.0),
         })
     }
-    fn bracket(xi: &Twist<M, S>, eta: &Twist<M, S>) -> Twist<M, S> {
-        Twist(match M {
+    fn bracket(xi: &Twist<S>, eta: &Twist<S>) -> Twist<S> {
+        Twist(match mistake() {
             BRACKET => SE3::bracket(&eta.0, &xi.0),
             NO_BRACKET => Tangent::zero(),
             _ => SE3::bracket(&xi.0, &eta.0),
         })
     }
-    fn coadjoint(&self, mu: &Wrench<M, S>) -> Wrench<M, S> {
-        Wrench(match M {
+    fn coadjoint(&self, mu: &Wrench<S>) -> Wrench<S> {
+        Wrench(match mistake() {
             COADJOINT => self.0.inverse().coadjoint(&mu.0),
             _ => self.0.coadjoint(&mu.0),
         })
     }
-    fn coadjoint_bracket(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
+    fn coadjoint_bracket(xi: &Twist<S>, mu: &Wrench<S>) -> Wrench<S> {
         let right = SE3::coadjoint_bracket(&xi.0, &mu.0);
-        Wrench(match M {
+        Wrench(match mistake() {
             BRACKET => -right,
             NO_BRACKET => Cotangent::zero(),
             // Pairs to zero with the velocity whose coordinates are those of mu in reverse.
@@ -313,22 +328,22 @@ impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
             _ => right,
         })
     }
-    fn cayley(xi: &Twist<M, S>) -> Self {
-        match M {
+    fn cayley(xi: &Twist<S>) -> Self {
+        match mistake() {
             CAYLEY_TWICE => Self(SE3::exp(&times(2.0, xi.0))),
             _ => Self::exp(xi),
         }
     }
-    fn cayley_inverse(&self) -> Result<Twist<M, S>, OutsideChart> {
+    fn cayley_inverse(&self) -> Result<Twist<S>, OutsideChart> {
         let log = self.log().map_err(|_| OutsideChart)?;
-        match M {
+        match mistake() {
             NO_CAYLEY_INVERSE => Err(OutsideChart),
             CAYLEY_TWICE => Ok(Twist(times(0.5, log.0))),
             _ => Ok(log),
         }
     }
-    fn dcay(xi: &Twist<M, S>, eta: &Twist<M, S>) -> Twist<M, S> {
-        match M {
+    fn dcay(xi: &Twist<S>, eta: &Twist<S>) -> Twist<S> {
+        match mistake() {
             // The right-trivialised one in place of the left, at which one guesses wrong half the time.
             DIFFERENTIAL => Self::dexp(&Twist(-xi.0), eta),
             CAYLEY_TWICE => Self::dexp(&Twist(times(2.0, xi.0)), &Twist(times(2.0, eta.0))),
@@ -336,56 +351,56 @@ impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
             _ => Self::dexp(xi, eta),
         }
     }
-    fn dexp_dual(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
-        Wrench(match M {
+    fn dexp_dual(xi: &Twist<S>, mu: &Wrench<S>) -> Wrench<S> {
+        Wrench(match mistake() {
             DUAL_DIFFERENTIAL => SE3::dexp_dual(&-xi.0, &mu.0),
             _ => SE3::dexp_dual(&xi.0, &mu.0),
         })
     }
-    fn dexp_inv_dual(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
-        Wrench(match M {
+    fn dexp_inv_dual(xi: &Twist<S>, mu: &Wrench<S>) -> Wrench<S> {
+        Wrench(match mistake() {
             DUAL_INVERSE => SE3::dexp_dual(&xi.0, &mu.0),
             _ => SE3::dexp_inv_dual(&xi.0, &mu.0),
         })
     }
-    fn dexp_inv_gradient(xi: &Twist<M, S>, mu: &Wrench<M, S>, eta: &Twist<M, S>) -> Wrench<M, S> {
-        Wrench(match M {
+    fn dexp_inv_gradient(xi: &Twist<S>, mu: &Wrench<S>, eta: &Twist<S>) -> Wrench<S> {
+        Wrench(match mistake() {
             GRADIENT => Cotangent::zero(),
             _ => SE3::dexp_inv_gradient(&xi.0, &mu.0, &eta.0),
         })
     }
-    fn dcay_dual(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
-        Wrench(match M {
+    fn dcay_dual(xi: &Twist<S>, mu: &Wrench<S>) -> Wrench<S> {
+        Wrench(match mistake() {
             CAYLEY_DUAL_DIFFERENTIAL => mu.0,
             _ => SE3::dexp_dual(&xi.0, &mu.0),
         })
     }
-    fn dcay_inv_dual(xi: &Twist<M, S>, mu: &Wrench<M, S>) -> Wrench<M, S> {
-        Wrench(match M {
+    fn dcay_inv_dual(xi: &Twist<S>, mu: &Wrench<S>) -> Wrench<S> {
+        Wrench(match mistake() {
             CAYLEY_DUAL_INVERSE => SE3::dcay_inv_dual(&xi.0, &mu.0),
             _ => SE3::dexp_inv_dual(&xi.0, &mu.0),
         })
     }
-    fn dcay_inv_gradient(xi: &Twist<M, S>, mu: &Wrench<M, S>, eta: &Twist<M, S>) -> Wrench<M, S> {
-        Wrench(match M {
+    fn dcay_inv_gradient(xi: &Twist<S>, mu: &Wrench<S>, eta: &Twist<S>) -> Wrench<S> {
+        Wrench(match mistake() {
             CAYLEY_GRADIENT => SE3::dcay_inv_gradient(&xi.0, &mu.0, &eta.0),
             _ => SE3::dexp_inv_gradient(&xi.0, &mu.0, &eta.0),
         })
     }
     fn inverse_into(&self, out: &mut Self) {
-        if M != INVERSE_INTO {
+        if mistake() != INVERSE_INTO {
             *out = self.inverse();
         }
     }
-    fn inverse_coadjoint_into(&self, mu: &Wrench<M, S>, out: &mut Wrench<M, S>) {
-        *out = match M {
+    fn inverse_coadjoint_into(&self, mu: &Wrench<S>, out: &mut Wrench<S>) {
+        *out = match mistake() {
             INVERSE_COADJOINT_INTO => self.coadjoint(mu),
             _ => self.inverse().coadjoint(mu),
         };
     }
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         self.0.advance(&f.0, &mut carry.0);
-        if M == ADVANCE_BESIDE {
+        if mistake() == ADVANCE_BESIDE {
             self.0.translation += Vec3([S::from_f64(1e-9); 3]);
         }
     }
@@ -393,30 +408,30 @@ impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
         Self(self.0.zero_carry())
     }
     fn chart_leave_into<R: Retraction>(
-        c: &Twist<M, S>,
-        momentum: &Wrench<M, S>,
-        (f, mu, pi): (&mut Self, &mut Wrench<M, S>, &mut Wrench<M, S>),
+        c: &Twist<S>,
+        momentum: &Wrench<S>,
+        (f, mu, pi): (&mut Self, &mut Wrench<S>, &mut Wrench<S>),
     ) {
         R::retract_into::<Self>(c, f);
         *mu = f.coadjoint(momentum);
-        *pi = match M {
+        *pi = match mistake() {
             CHART_END => R::d_left_inv_dual::<Self>(c, mu),
             _ => R::d_left_dual::<Self>(c, mu),
         };
     }
     fn chart_rates_into<R: Retraction>(
-        (c, pi, f): (&Twist<M, S>, &Wrench<M, S>, &Self),
-        (xi, tau): (&Twist<M, S>, &Wrench<M, S>),
-        (c_dot, pi_dot, force): (&mut Twist<M, S>, &mut Wrench<M, S>, &mut Wrench<M, S>),
+        (c, pi, f): (&Twist<S>, &Wrench<S>, &Self),
+        (xi, tau): (&Twist<S>, &Wrench<S>),
+        (c_dot, pi_dot, force): (&mut Twist<S>, &mut Wrench<S>, &mut Wrench<S>),
     ) {
         *c_dot = R::d_left_inv::<Self>(c, xi);
         *pi_dot = R::d_left_dual::<Self>(c, tau);
-        let sign = S::from_f64(if M == CHART_RATES { 1.0 } else { -1.0 });
+        let sign = S::from_f64(if mistake() == CHART_RATES { 1.0 } else { -1.0 });
         pi_dot.add_scaled(sign, &R::d_left_inv_gradient::<Self>(c, pi, xi));
         *force = f.inverse().coadjoint(tau);
     }
     fn sqrt(&self) -> Self {
-        Self(match M {
+        Self(match mistake() {
             ROOT_NOT => self.0,
             ROOT_FAR => {
                 let log = self.0.log().unwrap_or_else(|e| e.representative);
@@ -429,44 +444,44 @@ impl<const M: u8, S: Scalar> LieGroup for Slow<M, S> {
         let (before, mut after) = (self.0, self.0);
         after.normalize();
         let (r, s) = (*before.rotation.matrix(), *after.rotation.matrix());
-        self.0.rotation = match M {
+        self.0.rotation = match mistake() {
             NORMALIZE_AWAY => SO3::from_matrix_unchecked(r - (s - r)),
             NORMALIZE_NOT => before.rotation,
             _ => after.rotation,
         };
     }
     fn compose_into(&self, h: &Self, out: &mut Self) {
-        if M != COMPOSE_INTO {
+        if mistake() != COMPOSE_INTO {
             *out = self.compose(h);
         }
     }
-    fn coadjoint_into(&self, mu: &Wrench<M, S>, out: &mut Wrench<M, S>) {
-        if M != COADJOINT_INTO {
+    fn coadjoint_into(&self, mu: &Wrench<S>, out: &mut Wrench<S>) {
+        if mistake() != COADJOINT_INTO {
             *out = self.coadjoint(mu);
         }
     }
-    fn exp_into(xi: &Twist<M, S>, out: &mut Self) {
-        if M != EXP_INTO {
+    fn exp_into(xi: &Twist<S>, out: &mut Self) {
+        if mistake() != EXP_INTO {
             *out = Self::exp(xi);
         }
     }
-    fn cayley_into(xi: &Twist<M, S>, out: &mut Self) {
-        if M != CAYLEY_INTO {
+    fn cayley_into(xi: &Twist<S>, out: &mut Self) {
+        if mistake() != CAYLEY_INTO {
             *out = Self::cayley(xi);
         }
     }
     fn convert_into<A: Scalar, B: Scalar>(
-        g: &Slow<M, A>,
+        g: &Slow<A>,
         f: impl Fn(A) -> B + Copy,
         out: &mut Over<Self, B>,
     ) {
-        if M != CONVERT_INTO {
+        if mistake() != CONVERT_INTO {
             *out = Self::convert(g, f);
         }
     }
 }
 
-fn examples<const M: u8>() -> [Twist<M>; 3] {
+fn examples() -> [Twist; 3] {
     [
         [0.3, -0.4, 1.2, 0.5, 0.1, -0.7],
         [-1.5, 0.2, 0.1, 0.3, -2.0, 0.4],
@@ -475,13 +490,14 @@ fn examples<const M: u8>() -> [Twist<M>; 3] {
     .map(|xi| Twist(Tangent(xi)))
 }
 
-fn verdict<const M: u8>(velocities: &[Twist<M>]) -> Result<laws::Report, LawError> {
+fn verdict(mistake: u8, velocities: &[Twist]) -> Result<laws::Report, LawError> {
+    MISTAKE.set(mistake);
     let elements: Vec<_> = velocities.iter().map(Slow::exp).collect();
     laws::check(&elements, velocities)
 }
 
-fn broken_law<const M: u8>() -> &'static str {
-    match verdict::<M>(&examples()) {
+fn broken_law(mistake: u8) -> &'static str {
+    match verdict(mistake, &examples()) {
         Err(LawError::Violated { formula, .. } | LawError::Undefined { formula, .. }) => formula,
         other => panic!("the mistake was not caught: {other:?}"),
     }
@@ -489,114 +505,114 @@ fn broken_law<const M: u8>() -> &'static str {
 
 #[test]
 fn defaults_agree_with_closed_forms() {
-    verdict::<NONE>(&examples()).unwrap();
+    verdict(NONE, &examples()).unwrap();
 }
 
 #[test]
 fn mistakes_in_the_group_are_caught_and_named() {
-    assert_eq!(broken_law::<INVERSE>(), "g e = g");
+    assert_eq!(broken_law(INVERSE), "g e = g");
     let law = "p p^-1 = e + O(delta^2) for p normalised";
-    assert_eq!(broken_law::<NORMALIZE_NOT>(), law);
+    assert_eq!(broken_law(NORMALIZE_NOT), law);
     let law = "normalize(normalize p) = normalize p + O(delta^2)";
-    assert_eq!(broken_law::<NORMALIZE_AWAY>(), law);
-    assert_eq!(broken_law::<ZERO_ALGEBRA>(), "zero_algebra = 0");
-    assert_eq!(broken_law::<ZERO_DUAL>(), "zero_dual = 0");
+    assert_eq!(broken_law(NORMALIZE_AWAY), law);
+    assert_eq!(broken_law(ZERO_ALGEBRA), "zero_algebra = 0");
+    assert_eq!(broken_law(ZERO_DUAL), "zero_dual = 0");
 }
 
 #[test]
 fn mistakes_in_the_adjoint_action_are_caught_and_named() {
-    assert_eq!(broken_law::<ADJOINT>(), "Ad_gh xi = Ad_g Ad_h xi");
-    assert_eq!(broken_law::<COADJOINT>(), "<Ad*_g mu, xi> = <mu, Ad_g xi>");
+    assert_eq!(broken_law(ADJOINT), "Ad_gh xi = Ad_g Ad_h xi");
+    assert_eq!(broken_law(COADJOINT), "<Ad*_g mu, xi> = <mu, Ad_g xi>");
     let law = "<ad*_xi mu, eta> = <mu, ad_xi eta>";
-    assert_eq!(broken_law::<COADJOINT_BRACKET>(), law);
+    assert_eq!(broken_law(COADJOINT_BRACKET), law);
     let law = "ad_xi eta = d/ds Ad_exp(s xi) eta, by duals";
-    assert_eq!(broken_law::<BRACKET>(), law);
-    assert_eq!(broken_law::<NO_BRACKET>(), law);
+    assert_eq!(broken_law(BRACKET), law);
+    assert_eq!(broken_law(NO_BRACKET), law);
 }
 
 #[test]
 fn a_missing_bracket_is_caught_with_one_velocity() {
-    let verdict = verdict::<NO_BRACKET>(&examples()[..1]);
+    let verdict = verdict(NO_BRACKET, &examples()[..1]);
     assert!(matches!(verdict, Err(LawError::Violated { .. })));
 }
 
 #[test]
 fn mistakes_in_the_maps_are_caught_and_named() {
-    assert_eq!(broken_law::<CAYLEY_TWICE>(), "cay xi = exp xi + O(xi^3)");
+    assert_eq!(broken_law(CAYLEY_TWICE), "cay xi = exp xi + O(xi^3)");
     let law = "cay^-1(cay xi) = xi for |xi| <= 1/2";
-    assert_eq!(broken_law::<NO_CAYLEY_INVERSE>(), law);
-    assert_eq!(broken_law::<LOG_ZERO_FAR>(), "exp(log g) = g");
-    assert_eq!(broken_law::<LOG_LONG_WAY>(), "|log(exp xi)| <= |xi|");
+    assert_eq!(broken_law(NO_CAYLEY_INVERSE), law);
+    assert_eq!(broken_law(LOG_ZERO_FAR), "exp(log g) = g");
+    assert_eq!(broken_law(LOG_LONG_WAY), "|log(exp xi)| <= |xi|");
     let law = "log(exp xi) = xi for |xi| <= 1/2";
-    assert_eq!(broken_law::<LOG_NEVER_UNIQUE>(), law);
-    assert_eq!(broken_law::<LOG_INFINITE>(), "g e = g");
-    assert_eq!(broken_law::<DIFFERENTIAL_TWICE>(), "dcay_0 eta = eta");
+    assert_eq!(broken_law(LOG_NEVER_UNIQUE), law);
+    assert_eq!(broken_law(LOG_INFINITE), "g e = g");
+    assert_eq!(broken_law(DIFFERENTIAL_TWICE), "dcay_0 eta = eta");
     let law = "dcay_xi eta = cay(-xi) d/ds cay(xi + s eta), by duals";
-    assert_eq!(broken_law::<DIFFERENTIAL>(), law);
+    assert_eq!(broken_law(DIFFERENTIAL), law);
 }
 
 #[test]
 fn mistakes_in_the_square_root_are_caught_and_named() {
-    assert_eq!(broken_law::<ROOT_NOT>(), "sqrt(g) sqrt(g) = g");
-    assert_eq!(broken_law::<ROOT_FAR>(), "log(sqrt g) = log(g)/2");
+    assert_eq!(broken_law(ROOT_NOT), "sqrt(g) sqrt(g) = g");
+    assert_eq!(broken_law(ROOT_FAR), "log(sqrt g) = log(g)/2");
 }
 
 #[test]
 fn mistakes_in_the_transposed_differentials_are_caught_and_named() {
     let law = "<(dexp_xi)* mu, eta> = <mu, dexp_xi eta>";
-    assert_eq!(broken_law::<DUAL_DIFFERENTIAL>(), law);
+    assert_eq!(broken_law(DUAL_DIFFERENTIAL), law);
     let law = "<(dexp^-1_xi)* mu, eta> = <mu, dexp^-1_xi eta>";
-    assert_eq!(broken_law::<DUAL_INVERSE>(), law);
+    assert_eq!(broken_law(DUAL_INVERSE), law);
     let law = "<(dcay_xi)* mu, eta> = <mu, dcay_xi eta>";
-    assert_eq!(broken_law::<CAYLEY_DUAL_DIFFERENTIAL>(), law);
+    assert_eq!(broken_law(CAYLEY_DUAL_DIFFERENTIAL), law);
     let law = "<(dcay^-1_xi)* mu, eta> = <mu, dcay^-1_xi eta>";
-    assert_eq!(broken_law::<CAYLEY_DUAL_INVERSE>(), law);
+    assert_eq!(broken_law(CAYLEY_DUAL_INVERSE), law);
 }
 
 #[test]
 fn mistakes_in_the_gradients_are_caught_and_named() {
     let law = "dexp_inv_gradient = d/dxi <mu, dexp^-1_xi eta>, by duals";
-    assert_eq!(broken_law::<GRADIENT>(), law);
+    assert_eq!(broken_law(GRADIENT), law);
     let law = "dcay_inv_gradient = d/dxi <mu, dcay^-1_xi eta>, by duals";
-    assert_eq!(broken_law::<CAYLEY_GRADIENT>(), law);
+    assert_eq!(broken_law(CAYLEY_GRADIENT), law);
 }
 
 #[test]
 fn mistakes_in_the_charts_are_caught_and_named() {
     let law = "inverse_coadjoint_into = Ad*_(g^-1)";
-    assert_eq!(broken_law::<INVERSE_COADJOINT_INTO>(), law);
+    assert_eq!(broken_law(INVERSE_COADJOINT_INTO), law);
     let law = "advance by exp(xi/n), n times = g exp(xi)";
-    assert_eq!(broken_law::<ADVANCE_BESIDE>(), law);
+    assert_eq!(broken_law(ADVANCE_BESIDE), law);
     let law = "chart_leave_into: pi = (dtau_c)* mu";
-    assert_eq!(broken_law::<CHART_END>(), law);
+    assert_eq!(broken_law(CHART_END), law);
     let law = "chart_rates_into: pi' = (dtau_c)* tau - d/dc <pi, dtau^-1_c xi>";
-    assert_eq!(broken_law::<CHART_RATES>(), law);
+    assert_eq!(broken_law(CHART_RATES), law);
 }
 
 #[test]
 fn methods_that_write_nothing_are_caught_and_named() {
-    assert_eq!(broken_law::<CONVERT_INTO>(), "convert_into = convert");
-    assert_eq!(broken_law::<COMPOSE_INTO>(), "compose_into = compose");
-    assert_eq!(broken_law::<COADJOINT_INTO>(), "coadjoint_into = coadjoint");
-    assert_eq!(broken_law::<INVERSE_INTO>(), "inverse_into = inverse");
-    assert_eq!(broken_law::<EXP_INTO>(), "exp_into = exp");
-    assert_eq!(broken_law::<CAYLEY_INTO>(), "cayley_into = cayley");
+    assert_eq!(broken_law(CONVERT_INTO), "convert_into = convert");
+    assert_eq!(broken_law(COMPOSE_INTO), "compose_into = compose");
+    assert_eq!(broken_law(COADJOINT_INTO), "coadjoint_into = coadjoint");
+    assert_eq!(broken_law(INVERSE_INTO), "inverse_into = inverse");
+    assert_eq!(broken_law(EXP_INTO), "exp_into = exp");
+    assert_eq!(broken_law(CAYLEY_INTO), "cayley_into = cayley");
 }
 
 macro_rules! vector_mistakes_are_caught {
     ($test:ident, $first:ident) => {
         #[test]
         fn $test() {
-            assert_eq!(broken_law::<{ $first + WRITE }>(), "write(x)_i = x_i");
-            assert_eq!(broken_law::<{ $first + READ }>(), "read(write(x)) = x");
-            assert_eq!(broken_law::<{ $first + SET_ZERO }>(), "set_zero = 0");
-            assert_eq!(broken_law::<{ $first + SCALE }>(), "scale: a x");
+            assert_eq!(broken_law($first + WRITE), "write(x)_i = x_i");
+            assert_eq!(broken_law($first + READ), "read(write(x)) = x");
+            assert_eq!(broken_law($first + SET_ZERO), "set_zero = 0");
+            assert_eq!(broken_law($first + SCALE), "scale: a x");
             let law = "add_scaled: x + a y";
-            assert_eq!(broken_law::<{ $first + ADD_SCALED }>(), law);
-            assert_eq!(broken_law::<{ $first + SET_SUM }>(), "set_sum = x + a y");
-            assert_eq!(broken_law::<{ $first + NORM }>(), "|x|^2 = sum of x_i^2");
+            assert_eq!(broken_law($first + ADD_SCALED), law);
+            assert_eq!(broken_law($first + SET_SUM), "set_sum = x + a y");
+            assert_eq!(broken_law($first + NORM), "|x|^2 = sum of x_i^2");
             let law = "max_magnitude = max |x_i|";
-            assert_eq!(broken_law::<{ $first + MAX }>(), law);
+            assert_eq!(broken_law($first + MAX), law);
         }
     };
 }

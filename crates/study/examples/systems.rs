@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 table::survey(
                     &body,
                     Plan {
-                        high: [100, 110, 120, 130],
+                        high: [80, 90, 100, 110],
                         ..plan
                     },
                 )
