@@ -5,7 +5,8 @@ mod common;
 use articulated_fluid::{ArticulatedBody, Configuration};
 use common::{attitude_error, paper, run};
 use dvi::{Composition, FirstVariation, Gauss, Integrator, State, StepError, laws};
-use lgvi::{articulated_fluid, dvi};
+use lgvi::{articulated_fluid, dvi, lie};
+use lie::Exp;
 use study::baseline::{self, Pair, Tolerance};
 use study::raw;
 
@@ -63,6 +64,20 @@ fn orders_of_gauss() {
     order("2 stages", &|| gauss(2), 4.0, &[40, 80, 160]);
     order("3 stages", &|| gauss(3), 6.0, &[30, 40, 60]);
     order("4 stages", &|| gauss(4), 8.0, &[20, 24, 32]);
+}
+
+#[test]
+fn orders_of_gauss_in_the_exponential_chart() {
+    fn with<const S: usize>(declared: f64, steps: &[u32]) {
+        let (model, _) = paper();
+        let gauss = || Gauss::<_, S>::new(model.clone()).with_retraction::<Exp>();
+        let boxed = || Box::new(gauss()) as Fish;
+        order(&format!("{S} stages, exp"), &boxed, declared, steps);
+    }
+    with::<1>(2.0, &[200, 400, 800]);
+    with::<2>(4.0, &[40, 80, 160]);
+    with::<3>(6.0, &[30, 40, 60]);
+    with::<4>(8.0, &[20, 24, 32]);
 }
 
 #[test]
