@@ -4,6 +4,7 @@ use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, Scalar, VectorSpace};
 
 use crate::elimination::Elimination;
 use crate::jets::{Lifted, add_constant, for_each_chunk, read_partials};
+use crate::numbers::larger;
 use crate::{ContinuousSystem, Lagrangian, State};
 
 /// Newton iterations before a momentum is taken to have no velocity.
@@ -85,6 +86,8 @@ struct RealNewton<L: Lagrangian, S: Scalar> {
     hessian: Elimination<S>,
     xi: AlgebraOver<L::Group, S>,
     rhs: Vec<S>,
+    /// The last correction of `xi`.
+    delta: Vec<S>,
 }
 
 /// Duals of duals: second derivatives.
@@ -105,6 +108,7 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
             hessian: Elimination::new(dim),
             xi: g.zero_algebra(),
             rhs: vec![S::zero(); dim],
+            delta: vec![S::zero(); dim],
             g: g.clone(),
         }
     }
@@ -116,7 +120,6 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
         L::Group::convert_into::<S, Twice<S>>(&self.g, twice, &mut self.twice);
         self.xi.set_zero();
         let (mut last, mut part) = (f64::INFINITY, 1.0);
-        let mut delta = self.rhs.clone();
         for _ in 0..MAX_ITERATIONS {
             self.differentiate(lagrangian, t);
             let (mut residual, mut size) = (0.0_f64, 0.0_f64);
@@ -127,15 +130,16 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
             }
             if part > SHORTEST && (residual.is_nan() || residual > 2.0 * last) {
                 part *= 0.5;
-                self.correct(&delta, -part);
+                self.correct(-part);
                 continue;
             }
             self.hessian.factorise();
             self.hessian.solve(&mut self.rhs);
-            delta.copy_from_slice(&self.rhs);
-            self.correct(&delta, 1.0);
+            self.delta.copy_from_slice(&self.rhs);
+            self.correct(1.0);
             (last, part) = (residual, 1.0);
-            let correction = delta.iter().fold(0.0, |max, d| larger(max, d.magnitude()));
+            let sizes = self.delta.iter().map(|d| d.magnitude());
+            let correction = sizes.fold(0.0, larger);
             let rounding = residual <= ROUNDING * size && correction.is_finite();
             if rounding || correction <= CONVERGED * self.xi.max_magnitude() {
                 return true;
@@ -144,9 +148,9 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
         false
     }
 
-    /// Moves the iterate by a part of a correction.
-    fn correct(&mut self, delta: &[S], part: f64) {
-        for (i, delta) in delta.iter().enumerate() {
+    /// Moves the iterate by a part of the correction.
+    fn correct(&mut self, part: f64) {
+        for (i, delta) in self.delta.iter().enumerate() {
             self.xi.set(i, self.xi.get(i) + delta.times(part));
         }
     }
@@ -261,9 +265,4 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     fn fits(&self, g: &L::Group) -> bool {
         self.0.fits(g)
     }
-}
-
-/// The larger of the two, not a number where one is not.
-fn larger(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
 }

@@ -56,6 +56,7 @@ pub mod laws;
 mod legendre;
 mod linear;
 mod newton;
+mod numbers;
 mod quadrature;
 mod solver;
 mod state;

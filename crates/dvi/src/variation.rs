@@ -189,7 +189,7 @@ impl<G: RealGroup> Linearised<G> {
         self.newton
             .solve(lagrangian, &self.delta_residual, &mut self.delta);
         for i in 0..self.delta.dim() {
-            let moved = J::variable(0.0, direction) * J::constant(self.delta.get(i));
+            let moved = J::variable(0.0, direction).times(self.delta.get(i));
             self.c.set(i, self.c.get(i) - moved);
         }
     }

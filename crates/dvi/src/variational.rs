@@ -6,6 +6,7 @@ use lie::{Cayley, LieGroup, Retraction, VectorSpace};
 
 use crate::balance::Balance;
 use crate::newton::is_degenerate;
+use crate::numbers::relative;
 use crate::solver::{Algebra, StepSolver};
 use crate::variation::Linearised;
 use crate::warm_start::WarmStart;
@@ -425,12 +426,6 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         }
         CYCLIC_ITERATIONS
     }
-}
-
-/// A system at rest has no scale, and no residual either.
-#[inline(always)]
-fn relative(norm: f64, scale: f64) -> f64 {
-    if norm == 0.0 { 0.0 } else { norm / scale }
 }
 
 impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Variational<L, M, R> {

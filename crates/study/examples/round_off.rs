@@ -6,6 +6,7 @@
 
 use dvi::{ContinuousSystem, Gauss, Integrator, State};
 use lie::{Cotangent, LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
+use study::survey::slope;
 
 /// Step size, s: at it the energy band of six stages is below rounding.
 const H: f64 = 0.05;
@@ -118,14 +119,8 @@ fn main() {
             line.push(((*steps as f64).ln(), rms.ln()));
         }
     }
-    let m = line.len() as f64;
-    let (x, y) = line
-        .iter()
-        .fold((0.0, 0.0), |(x, y), p| (x + p.0 / m, y + p.1 / m));
-    let (xy, xx) = line.iter().fold((0.0, 0.0), |(xy, xx), p| {
-        (xy + (p.0 - x) * (p.1 - y), xx + (p.0 - x).powi(2))
-    });
-    let slope = xy / xx;
-    let constant = (y - 0.5 * x).exp() / f64::EPSILON;
+    let slope = slope(&line);
+    let constant_log = line.iter().map(|(x, y)| y - 0.5 * x).sum::<f64>() / line.len() as f64;
+    let constant = constant_log.exp() / f64::EPSILON;
     println!("from 1000 steps on: exponent {slope:.3}; rms = {constant:.2} eps sqrt(steps)");
 }

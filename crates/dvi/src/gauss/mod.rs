@@ -89,7 +89,6 @@ struct Work<C: ContinuousSystem> {
     linearised: Option<SweepNewton<C>>,
     /// Steps to solve by Newton's method before the plain iteration is tried again.
     long_steps: u32,
-    shape: C::Group,
 }
 
 impl<C: ContinuousSystem> Work<C> {
@@ -105,7 +104,6 @@ impl<C: ContinuousSystem> Work<C> {
             newton: None,
             linearised: None,
             long_steps: 0,
-            shape: g.clone(),
         }
     }
 }
@@ -171,7 +169,7 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
         self.check(state, h)?;
         let (system, tableau) = (&self.system, &self.tableau);
         let work = match self.work.take() {
-            Some(work) if work.shape.same_shape(&state.g) => work,
+            Some(work) if work.sweep.f.same_shape(&state.g) => work,
             _ => Box::new(Work::new(system, S, &state.g)),
         };
         let work = self.work.insert(work);
@@ -277,10 +275,7 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> FirstVariation for Gaus
             } = &mut **work;
             let linearised =
                 linearised.get_or_insert_with(|| SweepNewton::new(system, S, &state.g));
-            let mut x = core::mem::take(&mut linearised.x);
-            newton::write(sweep, &mut x);
-            linearised.carry::<R>((system, tableau), (state, h), &x, &mut carried);
-            linearised.x = x;
+            linearised.carry::<R>((system, tableau), (state, h), sweep, &mut carried);
         }
         if !carried.iter().all(Variation::is_finite) {
             let (step, t) = (self.steps, state.t);

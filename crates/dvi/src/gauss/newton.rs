@@ -4,7 +4,7 @@ use lie::{Jet, LieGroup, Retraction, Scalar, VectorSpace};
 
 use super::sweep::Sweep;
 use super::tableau::Tableau;
-use crate::jets::add_constant;
+use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
 use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
@@ -91,36 +91,24 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     }
 
     /// Factorises $1 - \Phi'$ at the iterate.
-    pub(super) fn renew_at<R: Retraction>(
-        &mut self,
-        method: (&C, &Tableau),
-        state: &State<C::Group>,
-        h: f64,
-    ) {
-        let x = core::mem::take(&mut self.x);
-        self.renew::<R>(method, state, h, &x);
-        self.x = x;
-    }
-
-    /// Factorises $1 - \Phi'$ at `x`.
-    fn renew<R: Retraction>(
+    pub(super) fn renew<R: Retraction>(
         &mut self,
         (system, tableau): (&C, &Tableau),
         state: &State<C::Group>,
         h: f64,
-        x: &[f64],
     ) {
         self.set_state(state);
         self.sweep.extra_force.set_zero();
-        for first in (0..x.len()).step_by(lie::JET_DIRECTIONS) {
-            for (i, (unknown, x)) in self.unknowns.iter_mut().zip(x).enumerate() {
+        let dim = self.x.len();
+        for_each_chunk(dim, |first| {
+            for (i, (unknown, x)) in self.unknowns.iter_mut().zip(&self.x).enumerate() {
                 *unknown = match i.checked_sub(first) {
                     Some(d) if d < lie::JET_DIRECTIONS => J::variable(*x, d),
                     _ => J::constant(*x),
                 };
             }
             self.map::<R>((system, tableau), state.t, h);
-            let last = x.len().min(first + lie::JET_DIRECTIONS);
+            let last = dim.min(first + lie::JET_DIRECTIONS);
             for column in first..last {
                 for (row, image) in self.unknowns.iter().enumerate() {
                     let unit = f64::from(u8::from(row == column));
@@ -128,7 +116,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
                     self.matrix.set(row, column, unit - slope);
                 }
             }
-        }
+        });
         self.matrix.factorise();
         self.h = h;
     }
@@ -137,6 +125,13 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         C::Group::convert_into::<f64, J>(&state.g, J::constant, &mut self.varied.g);
         self.varied.mu.set_zero();
         add_constant(&mut self.varied.mu, &state.mu);
+    }
+
+    /// Sets the unknowns to the iterate, not differentiated.
+    fn start_from_iterate(&mut self) {
+        for (unknown, x) in self.unknowns.iter_mut().zip(&self.x) {
+            *unknown = J::constant(*x);
+        }
     }
 
     /// $\Phi$ on the unknowns.
@@ -158,33 +153,30 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         self.correction.copy_from_slice(self.matrix.solve());
     }
 
-    /// Carries variations of `state` over a solved step, whose solution is `x` and displacement `f`, by the implicit-function rule.
+    /// Carries variations of `state` over a solved step, by the implicit-function rule.
     pub(super) fn carry<R: Retraction>(
         &mut self,
         (system, tableau): (&C, &Tableau),
         (state, h): (&State<C::Group>, f64),
-        x: &[f64],
+        solved: &Sweep<C, f64>,
         variations: &mut [Variation<C::Group>],
     ) {
-        self.renew::<R>((system, tableau), state, h, x);
+        write(solved, &mut self.x);
+        self.renew::<R>((system, tableau), state, h);
         for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
             self.varied.enter(state, chunk);
             self.sweep.extra_force.copy_from(&self.varied.force);
-            for (unknown, x) in self.unknowns.iter_mut().zip(x) {
-                *unknown = J::constant(*x);
-            }
+            self.start_from_iterate();
             self.map::<R>((system, tableau), state.t, h);
             let images = self.unknowns.clone();
-            for (unknown, x) in self.unknowns.iter_mut().zip(x) {
-                *unknown = J::constant(*x);
-            }
+            self.start_from_iterate();
             for direction in 0..chunk.len() {
                 for (entry, image) in self.correction.iter_mut().zip(&images) {
                     *entry = image.partial(direction);
                 }
                 self.solve();
                 for (unknown, slope) in self.unknowns.iter_mut().zip(&self.correction) {
-                    *unknown += J::variable(0.0, direction) * J::constant(*slope);
+                    *unknown += J::variable(0.0, direction).times(*slope);
                 }
             }
             read(&mut self.sweep, &self.unknowns);

@@ -6,6 +6,7 @@ use super::Work;
 use super::newton::{SweepNewton, read, write};
 use super::sweep::Stage;
 use super::tableau::Tableau;
+use crate::numbers::{larger, relative};
 use crate::{ContinuousSystem, Hint, State, StepReport};
 
 /// Sweeps before the plain iteration is given up.
@@ -57,6 +58,15 @@ enum Ended {
     Slow(StepReport),
 }
 
+impl Ended {
+    /// The same, with the iterations of an attempt before it.
+    fn after(mut self, iterations: u32) -> Self {
+        let (Self::Solved(report) | Self::Slow(report)) = &mut self;
+        report.iterations += iterations;
+        self
+    }
+}
+
 type Method<'a, C> = (&'a C, &'a Tableau);
 type Start<'a, C> = (&'a State<<C as ContinuousSystem>::Group>, f64);
 
@@ -103,16 +113,8 @@ impl<C: ContinuousSystem> Work<C> {
             self.long_steps = LONG_STEPS;
         }
         self.long_steps -= 1;
-        Ok(match self.newton::<R>(method, start, tolerance)? {
-            Ended::Solved(report) => Ended::Solved(StepReport {
-                iterations: report.iterations + sweeps,
-                ..report
-            }),
-            Ended::Slow(report) => Ended::Slow(StepReport {
-                iterations: report.iterations + sweeps,
-                ..report
-            }),
-        })
+        let ended = self.newton::<R>(method, start, tolerance)?;
+        Ok(ended.after(sweeps))
     }
 
     fn guess<R: Retraction>(
@@ -267,7 +269,7 @@ impl<C: ContinuousSystem> Work<C> {
                 return Ended::Slow(report);
             }
             if stale || damping < 1.0 || change > KEEPS_MATRIX * last {
-                newton.renew_at::<R>((system, tableau), state, h);
+                newton.renew::<R>((system, tableau), state, h);
             }
             (last, damping, stale) = (change, 1.0, false);
             newton.linearise(&self.sweep);
@@ -339,14 +341,4 @@ impl Changes {
     fn diverge(&self) -> bool {
         !self.now.is_finite() || (self.count > 6 && self.now > 10.0 * self.best)
     }
-}
-
-/// A system at rest has no scale, and no change either.
-fn relative(change: f64, size: f64) -> f64 {
-    if change == 0.0 { 0.0 } else { change / size }
-}
-
-/// The larger of the two, not a number where one is not.
-fn larger(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
 }

@@ -1,8 +1,9 @@
 //! Comparing the two sides of a law.
 
-use lie::VectorSpace;
+use lie::{RealGroup, VectorSpace};
 
-use super::{LawError, Outcome, Report};
+use super::{LawError, Outcome, Report, examples};
+use crate::State;
 
 /// What rounding may make of a formula, relative to its largest term; the systems of the tests reach a hundredth of it.
 pub(super) const ROUNDING: f64 = 1e-11;
@@ -67,7 +68,21 @@ impl Checker {
     }
 }
 
-/// The larger of the two, not a number where one is not.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
+/// Calls a law on every state, of which there must be one.
+pub(super) fn on_each<G: RealGroup>(
+    states: &[State<G>],
+    mut law: impl FnMut(&mut Checker, &State<G>) -> Outcome,
+) -> Result<Report, LawError> {
+    examples(states)?;
+    let mut checker = Checker::default();
+    states
+        .iter()
+        .try_for_each(|state| law(&mut checker, state))?;
+    Ok(checker.report())
+}
+
+/// One plus the largest coordinate of the logarithm.
+pub(super) fn extent<G: RealGroup>(g: &G) -> f64 {
+    let log = g.log().unwrap_or_else(|e| e.representative);
+    1.0 + log.max_magnitude()
 }

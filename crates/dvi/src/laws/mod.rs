@@ -53,7 +53,7 @@ use crate::{DiscreteLagrangian, State, StepError, Variational};
 use compare::Checker;
 
 pub use derivatives::check_consistency;
-pub use order::{Order, check_order, observed_order};
+pub use order::{Order, check_order, distance, observed_order};
 pub use steps::{check_reversibility, check_step, check_symplecticity, symplectic_defect};
 pub use symmetry::check_symmetry;
 

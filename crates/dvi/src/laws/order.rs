@@ -3,8 +3,8 @@
 use lie::{RealGroup, VectorSpace};
 
 use super::LawError;
-use super::compare::larger;
 use super::steps::difference;
+use crate::numbers::larger;
 use crate::{Integrator, State};
 
 /// Errors below this many roundings, which grow as a random walk, are those of the plateau.
@@ -84,7 +84,8 @@ pub fn check_order<I: Integrator>(
     })
 }
 
-fn distance<G: RealGroup>(a: &State<G>, b: &State<G>) -> f64 {
+/// How far two states are apart: the larger of $|\log(g_a^{-1} g_b)|$ and $|\mu_a - \mu_b| / |\mu_a|$; not a number where one is not.
+pub fn distance<G: RealGroup>(a: &State<G>, b: &State<G>) -> f64 {
     let turn = difference(&a.g, &b.g).norm_squared().sqrt();
     let mut momentum = a.mu.clone();
     momentum.add_scaled(-1.0, &b.mu);

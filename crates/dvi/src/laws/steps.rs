@@ -2,8 +2,9 @@
 
 use lie::{LieGroup, RealGroup, VectorSpace};
 
-use super::compare::{Checker, ROUNDING, larger};
-use super::{LawError, Outcome, Report, examples};
+use super::compare::{Checker, ROUNDING, extent, on_each};
+use super::{LawError, Outcome, Report};
+use crate::numbers::larger;
 use crate::{
     DiscreteLagrangian, FirstVariation, Integrator, State, Variation, legendre_minus,
     legendre_plus, symplectic_form,
@@ -27,12 +28,9 @@ where
     I: Integrator<Group = L::Group>,
     L: DiscreteLagrangian,
 {
-    examples(states)?;
-    let mut checker = Checker::default();
-    for state in states {
-        legendre(&mut checker, integrator, lagrangian, state, h)?;
-    }
-    Ok(checker.report())
+    on_each(states, |c, state| {
+        legendre(c, integrator, lagrangian, state, h)
+    })
 }
 
 pub(super) fn legendre<I, L>(
@@ -80,8 +78,7 @@ fn stiffness<L: DiscreteLagrangian>(
         mu.max_magnitude() / SMALL
     };
     let steepest = (0..base.dim()).map(slope).fold(0.0, f64::max);
-    let log = state.g.log().unwrap_or_else(|e| e.representative);
-    10.0 * steepest * (1.0 + log.max_magnitude())
+    10.0 * steepest * extent(&state.g)
 }
 
 /// The largest defect of the symplectic form over one step, relative to the momentum:
@@ -111,12 +108,7 @@ pub fn check_symplecticity<I: FirstVariation>(
     states: &[State<I::Group>],
     h: f64,
 ) -> Result<Report, LawError> {
-    examples(states)?;
-    let mut checker = Checker::default();
-    for state in states {
-        symplecticity(&mut checker, integrator, state, h)?;
-    }
-    Ok(checker.report())
+    on_each(states, |c, state| symplecticity(c, integrator, state, h))
 }
 
 pub(super) fn symplecticity<I: FirstVariation>(
@@ -170,12 +162,7 @@ pub fn check_reversibility<I: Integrator>(
     states: &[State<I::Group>],
     h: f64,
 ) -> Result<Report, LawError> {
-    examples(states)?;
-    let mut checker = Checker::default();
-    for state in states {
-        reversibility(&mut checker, integrator, state, h)?;
-    }
-    Ok(checker.report())
+    on_each(states, |c, state| reversibility(c, integrator, state, h))
 }
 
 pub(super) fn reversibility<I: Integrator>(
@@ -191,8 +178,7 @@ pub(super) fn reversibility<I: Integrator>(
     integrator.step(&mut there, -h)?;
     let case = || format!("{state:?}, h = {h:?}");
     let (turn, zero) = (difference(&state.g, &there.g), state.g.zero_algebra());
-    let log = state.g.log().unwrap_or_else(|e| e.representative);
-    let reach = 1.0 + log.max_magnitude();
+    let reach = extent(&state.g);
     let formula = "g after h and -h = g";
     c.vectors(formula, case, (&turn, &zero), ROUNDING * reach)?;
     let formula = "mu after h and -h = mu";

@@ -1,10 +1,10 @@
 //! Invariance of a discrete Lagrangian, and the momentum map that follows.
 
-use lie::{LieGroup, RealGroup, VectorSpace};
+use lie::{LieGroup, VectorSpace};
 
-use super::compare::{Checker, ROUNDING};
+use super::compare::{Checker, ROUNDING, extent, on_each};
 use super::derivatives::displacements;
-use super::{LawError, Outcome, Report, examples};
+use super::{LawError, Outcome, Report};
 use crate::symmetry::generator;
 use crate::{
     Derivatives, DiscreteLagrangian, Integrator, State, Symmetry, Variational, momentum_map,
@@ -25,13 +25,10 @@ pub fn check_symmetry<L: DiscreteLagrangian>(
     states: &[State<L::Group>],
     h: f64,
 ) -> Result<Report, LawError> {
-    examples(states)?;
-    let mut checker = Checker::default();
-    for state in states {
-        invariance(&mut checker, lagrangian, symmetry, state, h)?;
-        momentum(&mut checker, lagrangian, symmetry, state, h)?;
-    }
-    Ok(checker.report())
+    on_each(states, |c, state| {
+        invariance(c, lagrangian, symmetry, state, h)?;
+        momentum(c, lagrangian, symmetry, state, h)
+    })
 }
 
 fn invariance<L: DiscreteLagrangian>(
@@ -83,9 +80,4 @@ fn momentum<L: DiscreteLagrangian>(
     let case = || format!("{state:?}, h = {h:?}, after {STEPS} steps");
     let formula = "<mu, g^-1 d/ds a_s g> is constant";
     c.number(formula, case, 0, (end, start), tolerance)
-}
-
-fn extent<G: RealGroup>(g: &G) -> f64 {
-    let log = g.log().unwrap_or_else(|e| e.representative);
-    1.0 + log.max_magnitude()
 }

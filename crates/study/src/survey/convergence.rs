@@ -1,7 +1,7 @@
 //! The order of a method against a known state.
 
+use dvi::laws::distance;
 use dvi::{Integrator, State, StepError};
-use lie::{RealGroup, VectorSpace};
 
 use super::slope;
 use crate::problems::ProblemError;
@@ -45,21 +45,11 @@ pub fn convergence<I: Integrator>(
         for _ in 0..steps {
             integrator.step(&mut state, h)?;
         }
-        Ok((h, distance(&state, exact)))
+        Ok((h, distance(exact, &state)))
     };
     let errors: Vec<(f64, f64)> = steps.iter().map(run).collect::<Result<_, StepError>>()?;
     let above = errors.iter().filter(|(_, error)| *error > plateau);
     let logs: Vec<_> = above.map(|(h, error)| (h.ln(), error.ln())).collect();
     let order = slope(&logs);
     Ok(Convergence { errors, order })
-}
-
-fn distance<G: RealGroup>(a: &State<G>, exact: &State<G>) -> f64 {
-    let turn = a.g.inverse().compose(&exact.g).log();
-    let turn = turn.unwrap_or_else(|half| half.representative);
-    let mut momentum = a.mu.clone();
-    momentum.add_scaled(-1.0, &exact.mu);
-    let size = exact.mu.norm_squared().max(f64::MIN_POSITIVE);
-    let configuration = turn.norm_squared().sqrt();
-    configuration.max((momentum.norm_squared() / size).sqrt())
 }
