@@ -3,12 +3,13 @@
 use dvi::{ContinuousSystem, Lagrangian, State};
 use lie::{LieGroup, SO3, Vec3};
 
-use crate::{ArticulatedBody, Configuration, ModelError};
+use crate::elimination::of;
+use crate::{ArticulatedBody, Configuration, Joint, Mass, ModelError};
 
 /// Energy and the momentum maps of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conserved {
-    /// Total kinetic energy of bodies and fluid, J.
+    /// Total energy of bodies and fluid, J: the kinetic one, and the potential one under a weight.
     pub energy: f64,
     /// Total linear momentum $\sum_i R_i M_i V_i$ from the velocities, kg m/s, reference frame: the carried $p_x$ proves nothing.
     pub linear: Vec3,
@@ -16,7 +17,7 @@ pub struct Conserved {
     pub angular: Vec3,
 }
 
-impl ArticulatedBody {
+impl<M: Mass> ArticulatedBody<M> {
     /// The velocity $\xi = (\Omega_0, \dot x, \Omega_1, \dots)$ of a state, the inverse of (10).
     ///
     /// # Errors
@@ -25,7 +26,7 @@ impl ArticulatedBody {
         &self,
         state: &State<Configuration>,
     ) -> Result<<Configuration as LieGroup>::Algebra, ModelError> {
-        let expected = self.tails();
+        let expected = self.nodes.len() - 1;
         for found in [state.g.2.len(), state.mu.2.len()] {
             if found != expected {
                 return Err(ModelError::Shape { expected, found });
@@ -52,7 +53,7 @@ impl ArticulatedBody {
             .map(|(r, p): (&SO3, _)| r.rotate(p.vec3()));
         let orbital = x.vec3().cross(px.vec3());
         let conserved = Conserved {
-            energy: 0.5 * Configuration::pair(&state.mu, &xi),
+            energy: 0.5 * Configuration::pair(&state.mu, &xi) + self.potential(&state.g),
             linear: self.legendre(state.t, &state.g, &xi).1.vec3(),
             angular: spins.fold(orbital, |sum, spin| sum + spin),
         };
@@ -78,18 +79,27 @@ impl ArticulatedBody {
         attitudes.map(SO3::orthogonality_error).fold(0.0, f64::max)
     }
 
-    /// Where the joints are, in the reference frame: $x + R_0 d_{0i}$, m, in the order of the tails.
-    pub fn joint_positions(&self, g: &Configuration) -> impl Iterator<Item = Vec3> {
-        let (r0, x) = (g.0, g.1.vec3());
-        self.joints()
-            .map(move |joint| x + r0.rotate(joint.at_parent))
+    /// Where the joints are, in the reference frame: $x_p + R_p d_{pi}$, m, in the order of the bodies that hang on them;
+    /// as many as both the model and `g` have.
+    pub fn joint_positions(&self, g: &Configuration) -> Vec<Vec3> {
+        let centres = self.centre_positions(g);
+        let known = self.joints().zip(g.2.iter());
+        let position = |joint: Joint| {
+            let r = of((&g.0, &g.2), joint.parent);
+            centres[joint.parent] + r.rotate(joint.at_parent)
+        };
+        known.map(|(joint, _)| position(joint)).collect()
     }
 
-    /// Where the mass centres are, in the reference frame: $x$, then $x + R_0 d_{0i} - R_i d_{i0}$, m;
-    /// as many tails as both the model and `g` have.
-    pub fn centre_positions(&self, g: &Configuration) -> impl Iterator<Item = Vec3> {
-        let centres = self.joint_positions(g).zip(self.joints()).zip(g.2.iter());
-        let tails = centres.map(|((at, joint), r)| at - r.rotate(joint.at_child));
-        core::iter::once(g.1.vec3()).chain(tails)
+    /// Where the mass centres are, in the reference frame: $x$, then $x_p + R_p d_{pi} - R_i d_{ip}$, m;
+    /// as many as both the model and `g` have.
+    pub fn centre_positions(&self, g: &Configuration) -> Vec<Vec3> {
+        let mut centres = vec![g.1.vec3()];
+        for (joint, r) in self.joints().zip(g.2.iter()) {
+            let on = of((&g.0, &g.2), joint.parent);
+            let at = centres[joint.parent] + on.rotate(joint.at_parent);
+            centres.push(at - r.rotate(joint.at_child));
+        }
+        centres
     }
 }

@@ -3,125 +3,122 @@
 use core::ops::Range;
 
 use dvi::{ContinuousSystem, Lagrangian};
-use lie::{AlgebraOver, Cotangent, DualOver, LieGroup, Mat3, SO3, Scalar, Vec3};
+use lie::{AlgebraOver, DualOver, LieGroup, Scalar, Vec3};
+use smallvec::SmallVec;
 
-use crate::model::Tail;
-use crate::{ArticulatedBody, Configuration};
+use crate::discrete::PerBody;
+use crate::elimination::{Attitudes, Elimination, of, of_mut};
+use crate::{ArticulatedBody, Configuration, Mass};
 
-impl Tail {
-    /// The velocity of the joint in the tail's frame, $u_i = R_i^T (\dot x - R_0 \hat d_{0i} \Omega_0)$.
-    #[inline(always)]
-    fn joint_velocity<S: Scalar>(
+impl<M: Mass> ArticulatedBody<M> {
+    /// The velocities $V_i$ of the mass centres, each in its body's frame, (16):
+    /// $V_i = C_i^T (V_p + \Omega_p \times d_{pi}) + d_{ip} \times \Omega_i$.
+    fn centre_velocities<S: Scalar>(
         &self,
-        r0: &SO3<S>,
-        r: &SO3<S>,
-        dx: Vec3<S>,
-        omega0: Vec3<S>,
-    ) -> Vec3<S> {
-        r.inverse_rotate(dx + r0.rotate(omega0.cross(self.on_head.lift())))
+        r: Attitudes<S>,
+        (omega0, dx, omega): &AlgebraOver<Configuration, S>,
+    ) -> PerBody<Vec3<S>> {
+        let rate = |i: usize| of((omega0, omega), i).vec3();
+        let mut velocities: PerBody<Vec3<S>> = SmallVec::with_capacity(self.nodes.len());
+        velocities.push(r.0.inverse_rotate(dx.vec3()));
+        for (i, node) in self.nodes.iter().enumerate().skip(1) {
+            let swept = rate(node.parent).cross(node.at_parent.lift());
+            let joint = of(r, node.parent).rotate(velocities[node.parent] + swept);
+            let own = node.at_self.lift::<S>().cross(rate(i));
+            velocities.push(of(r, i).inverse_rotate(joint) + own);
+        }
+        velocities
     }
 
-    /// The velocity of the mass centre in the tail's frame, $V_i = u_i + \hat d_{i0} \Omega_i$, (16).
-    #[inline(always)]
-    fn centre_velocity<S: Scalar>(&self, u: Vec3<S>, omega: Vec3<S>) -> Vec3<S> {
-        u + self.on_tail.lift::<S>().cross(omega)
+    /// $U$, J; without a weight zero.
+    pub(crate) fn potential<S: Scalar>(&self, (r0, x, r): &Configuration<S>) -> S {
+        let attitudes = core::iter::once(r0).chain(r.iter());
+        let weight = self.weight.as_ref();
+        weight.map_or(S::zero(), |weight| weight.potential(x.vec3(), attitudes))
     }
 }
 
-impl Lagrangian for ArticulatedBody {
+impl<M: Mass> Lagrangian for ArticulatedBody<M> {
     type Group = Configuration;
 
-    /// The kinetic energy (6).
+    /// The kinetic energy (6), less the potential of the weight.
     fn value<S: Scalar>(&self, g: &Configuration<S>, xi: &AlgebraOver<Configuration, S>) -> S {
-        let ((r0, _, r), (omega0, dx, omega)) = (g, xi);
-        let (omega0, dx) = (omega0.vec3(), dx.vec3());
-        let energy = |m: Mat3, v: Vec3<S>| v.dot(m.lift::<S>() * v) * S::from_f64(0.5);
-        let mut sum = energy(self.head.m, r0.inverse_rotate(dx)) + energy(self.head.j, omega0);
-        for ((tail, r), omega) in self.tails.iter().zip(r.iter()).zip(omega.iter()) {
-            let u = tail.joint_velocity(r0, r, dx, omega0);
-            let v = tail.centre_velocity(u, omega.vec3());
-            sum += energy(tail.m, v) + energy(tail.j, omega.vec3());
+        let velocities = self.centre_velocities((&g.0, &g.2), xi);
+        let mut twice = S::zero();
+        for (i, (node, v)) in self.nodes.iter().zip(velocities).enumerate() {
+            let omega = of((&xi.0, &xi.2), i).vec3();
+            twice += v.dot(self.masses[i].apply(v)) + omega.dot(node.j.apply(omega));
         }
-        sum
+        twice.times(0.5) - self.potential(g)
     }
 
-    /// (10) with the rows of (4): $p_x = \sum_i R_i M_i V_i$, $p_0 = J_0 \Omega_0 + \sum_i \hat d_{0i} R_0^T R_i M_i V_i$, $p_i = J_i \Omega_i - \hat d_{i0} M_i V_i$.
+    /// (10) with the rows of (4): with $F_i = M_i V_i + \sum_k C_k F_k$,
+    /// $p_x = R_0 F_0$ and $p_i = J_i \Omega_i - d_{ip} \times F_i + \sum_k d_{ik} \times C_k F_k$.
     fn legendre(
         &self,
         _t: f64,
-        g: &Configuration,
+        (r0, _, r): &Configuration,
         xi: &<Configuration as LieGroup>::Algebra,
     ) -> <Configuration as LieGroup>::Dual {
-        let ((r0, _, r), (omega0, dx, omega)) = (g, xi);
-        let (omega0, dx) = (omega0.vec3(), dx.vec3());
-        let mut px = r0.rotate(self.head.m * r0.inverse_rotate(dx));
-        let mut p0 = self.head.j * omega0;
-        let tails = self.tails.iter().zip(r.iter()).zip(omega.iter());
-        let p = tails.map(|((tail, r), omega)| {
-            let u = tail.joint_velocity(r0, r, dx, omega0);
-            let momentum = tail.m * tail.centre_velocity(u, omega.vec3());
-            px += r.rotate(momentum);
-            p0 += tail.on_head.cross(r0.inverse_rotate(r.rotate(momentum)));
-            Cotangent::from(tail.j * omega.vec3() - tail.on_tail.cross(momentum))
-        });
-        let p = p.collect();
-        (p0.into(), px.into(), p)
+        let r = (r0, &r[..]);
+        let mut momenta = self.centre_velocities(r, xi);
+        for (v, mass) in momenta.iter_mut().zip(&self.masses) {
+            *v = mass.apply(*v);
+        }
+        let spin = |i: usize| self.nodes[i].j * of((&xi.0, &xi.2), i).vec3();
+        let mut p: PerBody<Vec3> = (0..self.nodes.len()).map(spin).collect();
+        for (i, node) in self.nodes.iter().enumerate().skip(1).rev() {
+            let force = of(r, i).rotate(momenta[i]);
+            let on_parent = of(r, node.parent).inverse_rotate(force);
+            p[i] -= node.at_self.cross(momenta[i]);
+            p[node.parent] += node.at_parent.cross(on_parent);
+            momenta[node.parent] += on_parent;
+        }
+        let tails = p[1..].iter().map(|p| (*p).into()).collect();
+        (p[0].into(), r0.rotate(momenta[0]).into(), tails)
     }
 
-    /// The head's position: $x$ enters nowhere.
+    /// The first body's position, but under a weight: $x$ enters nowhere.
     fn cyclic(&self) -> Range<usize> {
-        3..6
+        self.free_translation()
     }
 
     fn fits(&self, g: &Configuration) -> bool {
-        g.2.len() == self.tails.len()
+        g.2.len() + 1 == self.nodes.len()
     }
 }
 
-impl ContinuousSystem for ArticulatedBody {
+impl<M: Mass> ContinuousSystem for ArticulatedBody<M> {
     type Group = Configuration;
-    /// The attitudes of the tails in the head's frame.
-    type Workspace<S: Scalar> = Vec<Mat3<S>>;
+    type Workspace<S: Scalar> = Elimination<S>;
 
-    fn workspace<S: Scalar>(&self, _: &Configuration<S>) -> Vec<Mat3<S>> {
-        vec![Mat3::zero(); self.tails.len()]
+    fn workspace<S: Scalar>(&self, _: &Configuration<S>) -> Elimination<S> {
+        Elimination::new(self)
     }
 
     #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,
         _t: S,
-        g: &Configuration<S>,
+        (r0, _, r): &Configuration<S>,
         mu: &DualOver<Configuration, S>,
-        c: &mut Vec<Mat3<S>>,
+        elimination: &mut Elimination<S>,
         xi: &mut AlgebraOver<Configuration, S>,
         tau: &mut DualOver<Configuration, S>,
     ) {
-        let (r0, _, r) = g;
-        let system = self.head_system(r0, r, c);
-        self.solve_inertia(r0, c, &system, mu, xi);
-        let (omega0, v) = (xi.0.vec3(), r0.inverse_rotate(xi.1.vec3()));
-        // (11): the head's own term, then one a tail.
-        let mut tau0 = (self.head.m.lift::<S>() * v).cross(v);
-        let tails = self
-            .tails
-            .iter()
-            .zip(c.iter())
-            .zip(xi.2.iter().zip(tau.2.iter_mut()));
-        for ((tail, c), (omega, tau)) in tails {
-            let d_omega = tail.on_head.lift::<S>().cross(omega0);
-            let u = c.transpose_mul(v - d_omega);
-            let momentum = tail.m.lift::<S>() * tail.centre_velocity(u, omega.vec3());
-            tau0 -= d_omega.cross(*c * momentum);
-            // (13).
-            *tau = momentum.cross(u).into();
+        elimination.factorise(self, (r0, r));
+        elimination.begin(self, r0, mu);
+        elimination.finish_with_forces(self, r0, xi, tau);
+        if let Some(weight) = &self.weight {
+            tau.1 = weight.force().into();
+            for i in 0..self.nodes.len() {
+                let tau = of_mut((&mut tau.0, &mut tau.2), i);
+                *tau = (tau.vec3() + weight.torque(i, of((r0, r), i))).into();
+            }
         }
-        tau.0 = tau0.into();
-        // (12).
-        tau.1 = Vec3::zero().into();
     }
 
     fn fits(&self, g: &Configuration) -> bool {
-        g.2.len() == self.tails.len()
+        g.2.len() + 1 == self.nodes.len()
     }
 }

@@ -1,120 +1,168 @@
-//! The discrete Lagrangian (22) and its derivatives (29)–(33), for any number of tails.
+//! The discrete Lagrangian (22) and its derivatives (29)–(33), for any tree of bodies.
 
 use core::ops::Range;
 
 use dvi::{Derivatives, DiscreteLagrangian};
-use lie::{Mat3, SO3, Scalar, Vec3};
+use lie::{Mat3, Scalar, Vec3};
+use smallvec::SmallVec;
 
-use crate::model::Tail;
-use crate::{ArticulatedBody, Configuration};
+use crate::elimination::{Attitudes, of, of_mut};
+use crate::{ArticulatedBody, Configuration, Mass};
 
-impl ArticulatedBody {
-    /// (22), with the displacement of the head $\Delta x$ in the reference frame.
+/// Bodies whose quantities fit on the stack.
+const FEW: usize = 8;
+
+/// A quantity of each body.
+pub(crate) type PerBody<T> = SmallVec<[T; FEW]>;
+
+impl<M: Mass> ArticulatedBody<M> {
+    /// (22), with the displacement of the first body $\Delta x$ in the reference frame and its position `x`.
     ///
     /// With $E = F - I$, $B_i$ of (28) and $\mathrm{tr}[(I - F) J_d] = -\mathrm{tr}[E J_d]$.
     pub(crate) fn action<S: Scalar>(
         &self,
-        (r0, r): (&SO3<S>, &[SO3<S>]),
-        (f0, dx, f): (&SO3<S>, Vec3<S>, &[SO3<S>]),
+        (r, x): (Attitudes<S>, Vec3<S>),
+        (f, dx): (Attitudes<S>, Vec3<S>),
         h: S,
     ) -> S {
-        let (y, e0) = (r0.inverse_rotate(dx), f0.displacement());
-        let mut sum = y.dot(self.head.m.apply(y)).times(0.5) - e0.trace_with(self.head.jd);
-        for ((tail, r), f) in self.tails.iter().zip(r).zip(f) {
-            let (e, joint) = (f.displacement(), e0.apply(tail.on_head.lift()));
-            let b = r.inverse_rotate(dx + r0.rotate(joint));
-            let mb = tail.m.apply(b);
-            sum += b.dot(mb).times(0.5) - mb.dot(e.apply(tail.on_tail.lift()));
-            sum -= e.trace_with(tail.jd);
+        let mut sum = S::zero();
+        let mut displacements: PerBody<Vec3<S>> = SmallVec::with_capacity(self.nodes.len());
+        for (i, (node, mass)) in self.nodes.iter().zip(&self.masses).enumerate() {
+            let b = match i {
+                0 => r.0.inverse_rotate(dx),
+                _ => {
+                    let turn = of(f, node.parent).displacement();
+                    let joint = displacements[node.parent] + turn.apply(node.at_parent.lift());
+                    of(r, i).inverse_rotate(of(r, node.parent).rotate(joint))
+                }
+            };
+            let (e, mb) = (of(f, i).displacement(), mass.apply(b));
+            let turned = e.apply(node.at_self.lift());
+            displacements.push(b - turned);
+            sum += b.dot(mb).times(0.5) - mb.dot(turned) - e.trace_with(node.jd);
         }
-        sum / h
+        let kinetic = sum / h;
+        match &self.weight {
+            None => kinetic,
+            Some(weight) => {
+                let attitudes = core::iter::once(r.0).chain(r.1);
+                kinetic - h * weight.potential(x, attitudes)
+            }
+        }
     }
 }
 
 /// $\left(J_d F - F^T J_d\right)^\vee$ from $E = F - I$: the identity cancels.
 #[inline(always)]
-fn rotation_momentum<S: Scalar>(jd: Mat3, e: Mat3<S>) -> Vec3<S> {
-    (jd.lift::<S>() * e).skew_vee()
+fn rotation_momentum<S: Scalar>(jd: Mat3, e: &Mat3<S>) -> Vec3<S> {
+    (jd.lift::<S>() * *e).skew_vee()
 }
 
-/// What one tail gives to the derivatives, each times $h$.
-struct TailTerms<S> {
-    /// $R_0^T A_i$ with (27).
-    a: Vec3<S>,
-    /// (30).
-    d_f: Vec3<S>,
-    /// (33).
-    d_g: Vec3<S>,
+/// What the derivatives need of a body, all in its own frame: the rows of $E_i = F_i - I$; the displacement of its joint,
+/// $B_i$ of (28); that of its centre, $Y_i = B_i - E_i d_{ip}$; and the sum of the momenta on the joints that it carries.
+type Moved<S> = [Vec3<S>; 6];
+
+#[inline(always)]
+fn turn<S: Scalar>(moved: &Moved<S>) -> Mat3<S> {
+    Mat3([moved[0].0, moved[1].0, moved[2].0])
 }
 
-impl Tail {
-    /// (27), (30) and (33), from $b_0 = R_0^T B_i$.
+impl<M: Mass> ArticulatedBody<M> {
+    /// The displacements, from the first body on.
     #[inline(always)]
-    fn terms<S: Scalar>(&self, r0: &SO3<S>, r: &SO3<S>, f: &SO3<S>, b0: Vec3<S>) -> TailTerms<S> {
-        let (m, d) = (self.m.lift::<S>(), self.on_tail.lift::<S>());
-        let e = f.minus_identity();
-        let b = r.inverse_rotate(r0.rotate(b0));
-        let mb = m * b;
-        let a = mb - m * (e * d);
-        TailTerms {
-            a: r0.inverse_rotate(r.rotate(a)),
-            d_f: rotation_momentum(self.jd, e) - d.cross(f.inverse_rotate(mb)),
-            d_g: a.cross(b),
+    fn displace<S: Scalar>(
+        &self,
+        r: Attitudes<S>,
+        (f, dx): (Attitudes<S>, Vec3<S>),
+        moved: &mut [Moved<S>],
+    ) {
+        for (i, node) in self.nodes.iter().enumerate() {
+            let e = of(f, i).minus_identity();
+            let b = match i {
+                0 => r.0.inverse_rotate(dx),
+                _ => {
+                    let parent = &moved[node.parent];
+                    let joint = parent[4] + turn(parent) * node.at_parent.lift();
+                    of(r, i).inverse_rotate(of(r, node.parent).rotate(joint))
+                }
+            };
+            let y = b - e * node.at_self.lift();
+            moved[i] = [e.row(0), e.row(1), e.row(2), b, y, Vec3::zero()];
         }
     }
 }
 
-impl DiscreteLagrangian for ArticulatedBody {
+impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
     type Group = Configuration;
 
     fn value<S: Scalar>(&self, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {
-        self.action((&g.0, &g.2), (&f.0, f.1.vec3(), &f.2), h)
+        self.action(((&g.0, &g.2), g.1.vec3()), ((&f.0, &f.2), f.1.vec3()), h)
     }
 
+    /// (29)–(33) by recursion: displacements from the first body on, momenta back from the leaves.
+    ///
+    /// $ h\,d_{f_i} = (J'_d F_i - F_i^T J'_d)^\vee - d_{ip} \times F_i^T (M_i B_i + S_i) + \sum_k d_{ik} \times F_i^T C_k G_k$ and
+    /// $ h\,d_{g_i} = M_i Y_i \times B_i + \sum_k E_i l_k \times C_k G_k$ with $G_i = M_i Y_i + S_i$, $S_i = \sum_k C_k G_k$.
     #[inline(always)]
     fn derivatives<S: Scalar>(
         &self,
         _t: S,
-        g: &Configuration<S>,
-        f: &Configuration<S>,
+        (r0, _, r): &Configuration<S>,
+        (f0, dx, f): &Configuration<S>,
         h: S,
         out: &mut Derivatives<Configuration, S>,
     ) {
-        let ((r0, _, r), (f0, dx, f)) = (g, f);
-        let inverse_h = S::one() / h;
-        let (y, e0) = (r0.inverse_rotate(dx.vec3()), f0.minus_identity());
-        let m0y = self.head.m.lift::<S>() * y;
-        // The sums of (29), (31) and (32), in the head's frame.
-        let mut d_f0 = Vec3::zero();
-        let mut d_dx = m0y;
-        let mut d_r0 = m0y.cross(y);
-        let (_, _, d_f) = &mut out.d_f;
-        let (_, _, d_g) = &mut out.d_g;
-        let outputs = d_f.iter_mut().zip(d_g.iter_mut());
-        let inputs = self.tails.iter().zip(r.iter()).zip(f.iter());
-        for (((tail, r), f), (d_f, d_g)) in inputs.zip(outputs) {
-            let d0 = tail.on_head.lift::<S>();
-            let e0d0 = e0 * d0;
-            let terms = tail.terms(r0, r, f, y + e0d0);
-            d_f0 += d0.cross(f0.inverse_rotate(terms.a));
-            d_dx += terms.a;
-            d_r0 += e0d0.cross(terms.a);
-            *d_f = (terms.d_f * inverse_h).into();
-            *d_g = (terms.d_g * inverse_h).into();
+        let (inverse_h, r, f) = (S::one() / h, (r0, &r[..]), (f0, &f[..]));
+        let Derivatives {
+            d_f, d_g, scratch, ..
+        } = out;
+        scratch.resize(6 * self.nodes.len(), Vec3::zero());
+        let (moved, _) = scratch.as_chunks_mut();
+        self.displace(r, (f, dx.vec3()), moved);
+        (d_f.0, d_g.0) = (Vec3::zero().into(), Vec3::zero().into());
+        d_f.2.fill(Vec3::zero().into());
+        d_g.2.fill(Vec3::zero().into());
+        for (i, node) in self.nodes.iter().enumerate().rev() {
+            let (e, [.., b, y, carried]) = (turn(&moved[i]), moved[i]);
+            let (mb, my) = (self.masses[i].apply(b), self.masses[i].apply(y));
+            let joint = node
+                .at_self
+                .lift::<S>()
+                .cross(of(f, i).inverse_rotate(mb + carried));
+            let turned = rotation_momentum(node.jd, &e) - joint;
+            let slot = of_mut((&mut d_f.0, &mut d_f.2), i);
+            *slot = ((slot.vec3() + turned) * inverse_h).into();
+            let slot = of_mut((&mut d_g.0, &mut d_g.2), i);
+            let mut pulled = (slot.vec3() + my.cross(b)) * inverse_h;
+            if let Some(weight) = &self.weight {
+                pulled += weight.torque(i, of(r, i)) * h;
+            }
+            *slot = pulled.into();
+            let on_joint = of(r, i).rotate(my + carried);
+            if i == 0 {
+                d_f.1 = (on_joint * inverse_h).into();
+                continue;
+            }
+            let on_parent = of(r, node.parent).inverse_rotate(on_joint);
+            let parent = &mut moved[node.parent];
+            parent[5] += on_parent;
+            let slot = of_mut((&mut d_f.0, &mut d_f.2), node.parent);
+            let pushed = of(f, node.parent).inverse_rotate(on_parent);
+            *slot = (slot.vec3() + node.at_parent.lift::<S>().cross(pushed)).into();
+            let slot = of_mut((&mut d_g.0, &mut d_g.2), node.parent);
+            let swept = turn(parent) * node.lever.lift();
+            *slot = (slot.vec3() + swept.cross(on_parent)).into();
         }
-        let d_f0 = rotation_momentum(self.head.jd, e0) + d_f0;
-        out.d_f.0 = (d_f0 * inverse_h).into();
-        out.d_f.1 = (r0.rotate(d_dx) * inverse_h).into();
-        out.d_g.0 = (d_r0 * inverse_h).into();
-        out.d_g.1 = Vec3::zero().into();
+        let falling = self.weight.as_ref().map(|weight| weight.force::<S>() * h);
+        d_g.1 = falling.unwrap_or(Vec3::zero()).into();
     }
 
-    /// The head's displacement $\Delta x$: (31) is linear in it, and $x$ enters nowhere.
+    /// The displacement $\Delta x$ of the first body, but under a weight: (31) is linear in it, and $x$ enters nowhere.
     fn cyclic(&self) -> Range<usize> {
-        3..6
+        self.free_translation()
     }
 
     fn fits(&self, g: &Configuration) -> bool {
-        g.2.len() == self.tails.len()
+        g.2.len() + 1 == self.nodes.len()
     }
 }

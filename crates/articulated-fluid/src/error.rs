@@ -27,19 +27,19 @@ pub enum ModelError {
         /// Index of the body.
         body: usize,
     },
-    /// The joints do not hang every body but the first on the first.
+    /// The joints do not hang every body but the first on another one.
     #[error(
-        "body {body} hangs on {count} joints; expected one joint from body 0 to each other body (a tail on a tail is not supported)"
+        "body {body} hangs on {count} joints; expected one joint to each body but body 0, which is free"
     )]
     Joints {
         /// Index of the body.
         body: usize,
-        /// Joints that lead to it from body 0.
+        /// Joints that lead to it.
         count: usize,
     },
-    /// A joint names a body that is not there, hangs on another body than the first, or lies at no finite point.
+    /// A joint names a body that is not there, hangs a body on itself or on a later one, or lies at no finite point.
     #[error(
-        "joint {joint} from body {parent} to body {child} is not possible: expected parent 0, a child between 1 and {last}, and finite points"
+        "joint {joint} from body {parent} to body {child} is not possible: expected a child between 1 and {last}, a parent that comes before it, and finite points"
     )]
     Joint {
         /// Index of the joint.
@@ -51,18 +51,26 @@ pub enum ModelError {
         /// Index of the last body.
         last: usize,
     },
+    /// There is not one net mass for each body.
+    #[error("there are {found} net masses for {expected} bodies; expected one for each")]
+    NetMasses {
+        /// Bodies of the model.
+        expected: usize,
+        /// Net masses given.
+        found: usize,
+    },
     /// A state has, or leads to, a number that is not finite.
     #[error("the state's {quantity} is not finite; check attitudes, velocities and the step")]
     NotFinite {
         /// What is not finite.
         quantity: &'static str,
     },
-    /// The state has another number of tails than the model.
-    #[error("the state has {found} tails, the model {expected}")]
+    /// The state has another number of bodies than the model.
+    #[error("the state has {found} bodies beside the first, the model {expected}")]
     Shape {
-        /// Tails of the model.
+        /// Joints of the model.
         expected: usize,
-        /// Tails of the state.
+        /// Bodies of the state beside the first.
         found: usize,
     },
 }

@@ -41,18 +41,21 @@
 mod conserved;
 mod continuous;
 mod discrete;
+mod elimination;
 pub mod ellipsoid;
 mod error;
 mod initial;
+mod mass;
 mod model;
-mod reduced;
 pub mod scene;
 mod semidirect;
+mod weight;
 
 pub use conserved::Conserved;
+pub use elimination::{Elimination, Factor};
 pub use ellipsoid::{Ellipsoid, EllipsoidError};
 pub use error::ModelError;
+pub use mass::Mass;
 pub use model::{ArticulatedBody, Body, Configuration, Joint};
-pub use reduced::Factor;
 pub use scene::{Scene, SceneError};
 pub use semidirect::{OnSe3, SemidirectConfiguration};

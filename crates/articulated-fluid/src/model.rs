@@ -1,12 +1,16 @@
 //! The bodies, their joints, and what is constant of them.
 
-use lie::{Mat3, Power, R3, SO3, Vec3};
+use core::ops::Range;
 
-use crate::ModelError;
+use lie::{Mat3, Power, R3, SO3, Sym3, Vec3};
+
+use crate::elimination::Link;
+use crate::weight::Weight;
+use crate::{Mass, ModelError};
 
 /// The paper's direct product $SO(3) \times \mathbb{R}^3 \times SO(3)^n$, $g = (R_0, x, R_1, \dots, R_n)$.
 ///
-/// $R_i$ maps body $i$'s frame to the reference frame; $x$ is the mass centre of the head, in metres.
+/// $R_i$ maps body $i$'s frame to the reference frame; $x$ is the mass centre of the first body, in metres.
 pub type Configuration<S = f64> = (SO3<S>, R3<S>, Power<SO3<S>>);
 
 /// The total inertia of one body, the body's own plus the added one of the fluid.
@@ -25,190 +29,271 @@ pub struct Joint {
     pub parent: usize,
     /// Index of the body that hangs on it.
     pub child: usize,
-    /// $d_{0i}$: from the parent's mass centre, in the parent's frame, m.
+    /// $d_{pi}$: from the parent's mass centre, in the parent's frame, m.
     pub at_parent: Vec3,
-    /// $d_{i0}$: from the child's mass centre, in the child's frame, m.
+    /// $d_{ip}$: from the child's mass centre, in the child's frame, m.
     pub at_child: Vec3,
 }
 
-/// Rigid bodies on ball joints in a perfect fluid: a head and its tails.
+/// Rigid bodies on ball joints in a perfect fluid: a tree with a free base.
 ///
 /// The model of T. Lee, M. Leok and N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect fluid* (2009),
-/// for any number of tails. Neutrally buoyant, so that no potential enters.
+/// for any number of bodies, each on any other; [`formulas`](crate::formulas) derives it. Evaluations, the inertia solve
+/// and steps cost time and memory in proportion to the bodies.
+///
+/// `M` is how the masses are stored: matrices in a fluid, numbers [without](Self::isotropic).
 ///
 /// ```
-/// use articulated_fluid::{ArticulatedBody, Body};
-/// use lie::Mat3;
+/// use articulated_fluid::{ArticulatedBody, Body, Joint};
+/// use lie::{Mat3, Vec3};
 ///
 /// let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
-/// let alone = ArticulatedBody::new(&[body], &[])?;
-/// assert_eq!(alone.tails(), 0);
+/// // A chain: each body on the one before.
+/// let joint = |child: usize| Joint {
+///     parent: child - 1,
+///     child,
+///     at_parent: Vec3([0.6, 0.0, 0.0]),
+///     at_child: Vec3([-0.6, 0.0, 0.0]),
+/// };
+/// let eel = ArticulatedBody::new(&[body; 30], &(1..30).map(joint).collect::<Vec<_>>())?;
+/// assert_eq!(eel.bodies().len(), 30);
 /// # Ok::<(), articulated_fluid::ModelError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct ArticulatedBody {
-    pub(crate) head: Head,
-    pub(crate) tails: Vec<Tail>,
-}
-
-/// The head and what follows from its inertia.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Head {
-    /// $M_0$.
-    pub(crate) m: Mat3,
-    /// $J_0$.
-    pub(crate) j: Mat3,
-    /// $J_{d_0}$, (23).
-    pub(crate) jd: Mat3,
-}
-
-/// A tail, its joint, and what follows from them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Tail {
+pub struct ArticulatedBody<M = Mat3> {
     /// $M_i$.
-    pub(crate) m: Mat3,
+    pub(crate) masses: Vec<M>,
+    /// A parent stands before its children.
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) weight: Option<Weight>,
+    /// Whether the translation is kept as an unknown, though it could be eliminated.
+    pub(crate) keeps_translation: bool,
+}
+
+/// A body, its joint to its parent, and what follows from them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Node {
+    /// Index of the parent; of the first body, which has none, 0.
+    pub(crate) parent: usize,
+    pub(crate) is_leaf: bool,
+    /// Whether the elimination, which goes through the bodies backwards, meets the parent's children here first.
+    pub(crate) is_last_sibling: bool,
     /// $J_i$.
     pub(crate) j: Mat3,
-    /// $d_{0i}$, in the head's frame.
-    pub(crate) on_head: Vec3,
-    /// $d_{i0}$, in the tail's frame.
-    pub(crate) on_tail: Vec3,
+    /// $d_{pi}$, in the parent's frame.
+    pub(crate) at_parent: Vec3,
+    /// $d_{ip}$, in the body's frame.
+    pub(crate) at_self: Vec3,
+    /// $l_i = d_{pi} - d_{pp(p)}$: from the parent's joint to this body's, in the parent's frame.
+    pub(crate) lever: Vec3,
     /// $J'_{d_i}$, (24).
     pub(crate) jd: Mat3,
-    /// $J'^{-1}_i$ with $J'_i = J_i - \hat d_{i0} M_i \hat d_{i0}$, (24); constant in the tail's frame.
-    pub(crate) j_inverse: Mat3,
-    /// $M_i \hat d_{i0} J'^{-1}_i$: what the tail's own momentum adds to the force on its joint.
-    pub(crate) recoil: Mat3,
-    /// $M_i + M_i \hat d_{i0} J'^{-1}_i \hat d_{i0} M_i$: the mass that the joint feels.
-    pub(crate) m_joint: Mat3,
+    /// $-M_i \hat d_{ip}$.
+    pub(crate) k: Mat3,
+    /// $J'_i = J_i - \hat d_{ip} M_i \hat d_{ip}$, (24).
+    pub(crate) j_joint: Sym3,
 }
 
 impl ArticulatedBody {
-    /// The model of these bodies, the first one the head, with one joint from the head to each other.
+    /// The model of these bodies on these joints, which may come in any order: a body hangs on one that stands before it.
     ///
     /// # Errors
-    /// [`ModelError`] where a matrix is not symmetric and positive definite, or the joints do not make a star.
+    /// [`ModelError`] where a matrix is not symmetric and positive definite, or the joints do not make a tree.
     pub fn new(bodies: &[Body], joints: &[Joint]) -> Result<Self, ModelError> {
-        let (head, tails) = bodies.split_first().ok_or(ModelError::NoBody)?;
+        if bodies.is_empty() {
+            return Err(ModelError::NoBody);
+        }
         for (index, body) in bodies.iter().enumerate() {
-            let refuse = |matrix| ModelError::NotPositiveDefinite {
-                body: index,
-                matrix,
-            };
-            positive_definite(&body.mass)
-                .then_some(())
-                .ok_or_else(|| refuse("mass"))?;
-            positive_definite(&body.inertia)
-                .then_some(())
-                .ok_or_else(|| refuse("inertia"))?;
+            definite(index, "mass", &body.mass)?;
+            definite(index, "inertia", &body.inertia)?;
         }
-        for (index, joint) in joints.iter().enumerate() {
-            let Joint { parent, child, .. } = *joint;
-            let points = [joint.at_parent, joint.at_child];
-            let finite = points.iter().flat_map(|p| p.0).all(f64::is_finite);
-            if parent != 0 || child == 0 || child > tails.len() || !finite {
-                return Err(ModelError::Joint {
-                    joint: index,
-                    parent,
-                    child,
-                    last: tails.len(),
-                });
-            }
-        }
-        let tail = |(i, body): (usize, &Body)| {
-            let mut leading = joints.iter().filter(|joint| joint.child == i + 1);
-            match (leading.next(), leading.count()) {
-                (Some(joint), 0) => {
-                    let tail = Tail::new(body, joint);
-                    tail.is_finite()
-                        .then_some(tail)
-                        .ok_or(ModelError::OutOfRange { body: i + 1 })
-                }
-                (first, more) => {
-                    let count = usize::from(first.is_some()) + more;
-                    Err(ModelError::Joints { body: i + 1, count })
-                }
-            }
-        };
-        let tails = tails
+        let joints = in_order(joints, bodies.len())?;
+        let mut nodes: Vec<Node> = Vec::with_capacity(bodies.len());
+        for (body, joint) in bodies
             .iter()
-            .enumerate()
-            .map(tail)
-            .collect::<Result<_, _>>()?;
-        Ok(Self {
-            head: Head::new(head),
-            tails,
-        })
-    }
-
-    /// The number of tails $n$.
-    pub fn tails(&self) -> usize {
-        self.tails.len()
-    }
-
-    /// The total inertia of body `i`, the head being 0; `None` past the last.
-    pub fn body(&self, i: usize) -> Option<Body> {
-        if i == 0 {
-            return Some(Body {
-                mass: self.head.m,
-                inertia: self.head.j,
-            });
+            .zip(core::iter::once(None).chain(joints.into_iter().map(Some)))
+        {
+            let on = joint.map_or(Vec3::zero(), |joint| nodes[joint.parent].at_self);
+            nodes.push(Node::new(body, joint, on));
         }
-        let tail = self.tails.get(i - 1)?;
-        Some(Body {
-            mass: tail.m,
-            inertia: tail.j,
+        mark(&mut nodes);
+        let mut made = nodes.iter().zip(bodies);
+        match made.position(|(node, body)| !node.is_finite(&body.mass)) {
+            Some(body) => Err(ModelError::OutOfRange { body }),
+            None => Ok(Self {
+                masses: bodies.iter().map(|body| body.mass).collect(),
+                nodes,
+                weight: None,
+                keeps_translation: false,
+            }),
+        }
+    }
+
+    /// The same model with its masses as numbers, where each is isotropic, as without a fluid: fewer terms, the same motion.
+    ///
+    /// ```
+    /// use articulated_fluid::{ArticulatedBody, Body};
+    /// use lie::Mat3;
+    ///
+    /// let dry = Body { mass: Mat3::diagonal([2.0; 3]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
+    /// assert!(ArticulatedBody::new(&[dry], &[])?.isotropic().is_some());
+    /// # Ok::<(), articulated_fluid::ModelError>(())
+    /// ```
+    pub fn isotropic(&self) -> Option<ArticulatedBody<f64>> {
+        let number = |m: &Mat3| (*m == Mat3::diagonal([m[(0, 0)]; 3])).then_some(m[(0, 0)]);
+        Some(ArticulatedBody {
+            masses: self.masses.iter().map(number).collect::<Option<_>>()?,
+            nodes: self.nodes.clone(),
+            weight: self.weight.clone(),
+            keeps_translation: self.keeps_translation,
+        })
+    }
+}
+
+impl<M: Mass> ArticulatedBody<M> {
+    /// The same bodies under gravity: on each acts its net mass, that of the body less that of the displaced fluid, kg, times
+    /// `gravity`, m/s² in the reference frame, at its mass centre.
+    ///
+    /// # Errors
+    /// [`ModelError::NetMasses`] where there is not one net mass for each body; [`ModelError::NotFinite`] where the forces are not.
+    pub fn with_gravity(mut self, gravity: Vec3, net_masses: &[f64]) -> Result<Self, ModelError> {
+        let (expected, found) = (self.nodes.len(), net_masses.len());
+        if expected != found {
+            return Err(ModelError::NetMasses { expected, found });
+        }
+        let weight = Weight::new(gravity, net_masses, &self.nodes);
+        if !weight.is_finite() {
+            return Err(ModelError::NotFinite { quantity: "weight" });
+        }
+        self.weight = Some(weight);
+        Ok(self)
+    }
+
+    /// The same model with its translation among the unknowns of a step, though it could be eliminated: to measure what that saves.
+    pub fn keep_translation(mut self) -> Self {
+        self.keeps_translation = true;
+        self
+    }
+
+    /// The total inertia of each body.
+    pub fn bodies(&self) -> impl ExactSizeIterator<Item = Body> + '_ {
+        let bodies = self.masses.iter().zip(&self.nodes);
+        bodies.map(|(mass, node)| Body {
+            mass: mass.matrix(),
+            inertia: node.j,
         })
     }
 
-    /// The joints, in the order of the tails.
-    pub fn joints(&self) -> impl Iterator<Item = Joint> + '_ {
-        self.tails.iter().enumerate().map(|(i, tail)| Joint {
-            parent: 0,
-            child: i + 1,
-            at_parent: tail.on_head,
-            at_child: tail.on_tail,
+    /// The joints, in the order of the bodies that hang on them.
+    pub fn joints(&self) -> impl ExactSizeIterator<Item = Joint> + '_ {
+        let tails = self.nodes.iter().enumerate().skip(1);
+        tails.map(|(child, node)| Joint {
+            parent: node.parent,
+            child,
+            at_parent: node.at_parent,
+            at_child: node.at_self,
         })
     }
 
-    /// The aligned configuration: all attitudes the identity, the head at the origin.
+    /// The aligned configuration: all attitudes the identity, the first body at the origin.
     pub fn aligned(&self) -> Configuration {
-        let tails = Power::new(vec![SO3::identity(); self.tails.len()]);
+        let tails = Power::new(vec![SO3::identity(); self.nodes.len() - 1]);
         (SO3::identity(), R3::identity(), tails)
     }
-}
 
-impl Head {
-    fn new(body: &Body) -> Self {
-        Self {
-            m: body.mass,
-            j: body.inertia,
-            jd: nonstandard(body.inertia),
+    /// The coordinates of $x$, where nothing depends on it and it is to be eliminated.
+    pub(crate) fn free_translation(&self) -> Range<usize> {
+        let floats = self.weight.as_ref().is_none_or(Weight::is_neutral);
+        if floats && !self.keeps_translation {
+            3..6
+        } else {
+            0..0
         }
     }
 }
 
-impl Tail {
-    fn new(body: &Body, joint: &Joint) -> Self {
-        let (m, d) = (body.mass, joint.at_child.hat());
-        let j_prime = body.inertia - d * m * d;
-        let j_inverse = j_prime.inverse();
-        let recoil = m * d * j_inverse;
+impl Node {
+    /// A body on a joint, whose parent hangs on its own joint at `on`, in the parent's frame.
+    fn new(body: &Body, joint: Option<Joint>, on: Vec3) -> Self {
+        let zero = Vec3::zero();
+        let (parent, at_parent, at_self) = match joint {
+            Some(joint) => (joint.parent, joint.at_parent, joint.at_child),
+            None => (0, zero, zero),
+        };
+        let (m, d) = (body.mass, at_self.hat());
+        let j_joint = body.inertia - d * m * d;
         Self {
-            m,
+            parent,
+            is_leaf: true,
+            is_last_sibling: true,
             j: body.inertia,
-            on_head: joint.at_parent,
-            on_tail: joint.at_child,
-            jd: nonstandard(j_prime),
-            j_inverse,
-            recoil,
-            m_joint: m + recoil * d * m,
+            at_parent,
+            at_self,
+            lever: at_parent - on,
+            jd: nonstandard(j_joint),
+            k: -(m * d),
+            j_joint: Sym3::upper(&j_joint),
         }
     }
 
-    fn is_finite(&self) -> bool {
-        let derived = [self.jd, self.j_inverse, self.recoil, self.m_joint];
-        derived.iter().all(|a| a.frobenius().is_finite())
+    fn is_finite(&self, mass: &Mat3) -> bool {
+        let alone = Link::<f64>::alone(self, mass);
+        let derived = [
+            self.jd,
+            alone.x,
+            alone.mass.matrix(),
+            alone.j_inverse.matrix(),
+        ];
+        derived.iter().all(|a| a.frobenius().is_finite()) && self.lever.is_finite()
+    }
+}
+
+fn definite(body: usize, matrix: &'static str, a: &Mat3) -> Result<(), ModelError> {
+    positive_definite(a)
+        .then_some(())
+        .ok_or(ModelError::NotPositiveDefinite { body, matrix })
+}
+
+/// The joints in the order of their children, the bodies from 1 on.
+fn in_order(joints: &[Joint], bodies: usize) -> Result<Vec<Joint>, ModelError> {
+    let mut counts = vec![0_usize; bodies];
+    let mut ordered = joints.to_vec();
+    for (index, joint) in joints.iter().enumerate() {
+        let Joint { parent, child, .. } = *joint;
+        let finite = joint.at_parent.is_finite() && joint.at_child.is_finite();
+        if parent >= child || child >= bodies || !finite {
+            return Err(ModelError::Joint {
+                joint: index,
+                parent,
+                child,
+                last: bodies - 1,
+            });
+        }
+        counts[child] += 1;
+    }
+    match counts
+        .iter()
+        .enumerate()
+        .skip(1)
+        .find(|(_, count)| **count != 1)
+    {
+        Some((body, count)) => Err(ModelError::Joints {
+            body,
+            count: *count,
+        }),
+        None => {
+            ordered.sort_by_key(|joint| joint.child);
+            Ok(ordered)
+        }
+    }
+}
+
+/// Marks which bodies carry others, and which of the siblings is last.
+fn mark(nodes: &mut [Node]) {
+    for i in (1..nodes.len()).rev() {
+        let parent = nodes[i].parent;
+        nodes[i].is_last_sibling = nodes[parent].is_leaf;
+        nodes[parent].is_leaf = false;
     }
 }
 

@@ -24,12 +24,14 @@ impl DiscreteLagrangian for OnSe3 {
         f: &SemidirectConfiguration<S>,
         h: S,
     ) -> S {
-        let (r0, dx) = (&g.0.rotation, g.0.rotation.rotate(f.0.translation));
-        self.0.action((r0, &g.1), (&f.0.rotation, dx, &f.1), h)
+        let (r0, f0) = (&g.0.rotation, &f.0.rotation);
+        let dx = r0.rotate(f.0.translation);
+        self.0
+            .action(((r0, &g.1), g.0.translation), ((f0, &f.1), dx), h)
     }
 
     fn fits(&self, g: &SemidirectConfiguration) -> bool {
-        g.1.len() == self.0.tails()
+        g.1.len() == self.0.joints().len()
     }
 }
 

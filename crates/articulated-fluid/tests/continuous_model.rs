@@ -97,7 +97,7 @@ proptest! {
         spoil(&mut reduced);
         model.factorise(&model.aligned(), &mut factor);
         model.factorise(g, &mut factor);
-        model.solve(&factor, &mu, &mut reduced);
+        model.solve(&mut factor, &mu, &mut reduced);
         // Rounding times the condition, in both.
         assert_close(&reduced.coordinates(), &dense, 1e-12);
         if let [one, two] = &g.2[..] {
@@ -114,7 +114,7 @@ proptest! {
         model.factorise(g, &mut factor);
         f.1.0 = [f64::NAN; 3];
         let mut c = f.zero_algebra();
-        model.eliminate(&factor, &mu, H, &mut f, &mut c);
+        model.eliminate(&mut factor, &mu, H, &mut f, &mut c);
         assert_eq!(c.1.vec3(), f.1.vec3(), "element and coordinates agree");
         let after = dvi::legendre_plus(model, 0.0, g, &f, H);
         // Rounding of masses times lengths up to 1e2, over H.

@@ -20,7 +20,7 @@ fn every_scene_has_a_model_and_an_initial_state() {
         let scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
         let model = scene.model().expect("a model");
         let state = scene.initial_state().expect("a state");
-        assert_eq!(model.tails() + 1, scene.bodies.len());
+        assert_eq!(model.bodies().len(), scene.bodies.len());
         assert_eq!(state.t, 0.0);
         assert_eq!(state.g.1.0, scene.position);
         // The momentum's velocity is the scene's: rounding times the condition of the inertia.

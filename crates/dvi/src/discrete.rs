@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 use core::ops::Range;
 
-use lie::{DualOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
+use lie::{DualOver, Jet, LieGroup, Over, RealGroup, Scalar, Vec3, VectorSpace};
 
 use crate::jets::{Lifted, for_each_chunk, read_partials};
 
@@ -145,6 +145,9 @@ pub struct Derivatives<G: RealGroup, S: Scalar> {
     pub d_f: DualOver<G, S>,
     /// $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$: the derivative along $g \exp(\eta)$ at $\eta = 0$.
     pub d_g: DualOver<G, S>,
+    /// Storage for a closed form's own use, kept from call to call and empty at first: a recursion over bodies has
+    /// quantities for each.
+    pub scratch: Vec<Vec3<S>>,
     lifted: Option<Lifted<G, S>>,
     ends: Option<Ends<G, S>>,
 }
@@ -173,6 +176,7 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         Self {
             d_f: g.zero_dual(),
             d_g: g.zero_dual(),
+            scratch: Vec::new(),
             lifted: None,
             ends: None,
         }

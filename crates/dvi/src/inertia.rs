@@ -16,10 +16,10 @@ pub trait Inertia: DiscreteLagrangian {
     /// Factorises $\mathbb I(g)$.
     fn factorise(&self, g: &Self::Group, factor: &mut Self::Factor);
 
-    /// Solves $\mathbb I(g) \xi = \mu$; writes every coordinate of `xi`.
+    /// Solves $\mathbb I(g) \xi = \mu$; writes every coordinate of `xi`. The factorisation stays as it is: it is lent for the storage in it.
     fn solve(
         &self,
-        factor: &Self::Factor,
+        factor: &mut Self::Factor,
         mu: &<Self::Group as LieGroup>::Dual,
         xi: &mut <Self::Group as LieGroup>::Algebra,
     );
@@ -30,7 +30,7 @@ pub trait Inertia: DiscreteLagrangian {
     /// A model with cyclic coordinates that offers its inertia must implement it.
     fn eliminate(
         &self,
-        factor: &Self::Factor,
+        factor: &mut Self::Factor,
         mu: &<Self::Group as LieGroup>::Dual,
         h: f64,
         f: &mut Self::Group,
@@ -90,14 +90,14 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
 
     #[inline(always)]
     fn eliminate(
-        &self,
+        &mut self,
         lagrangian: &L,
         mu: &Dual<L>,
         h: f64,
         f: &mut L::Group,
         c: &mut Algebra<L>,
     ) {
-        lagrangian.eliminate(&self.factor, mu, h, f, c);
+        lagrangian.eliminate(&mut self.factor, mu, h, f, c);
     }
 
     #[inline(always)]
@@ -105,7 +105,7 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
         match &mut self.exact {
             Some(exact) if self.takes_exact => exact.solve(lagrangian, residual, delta),
             _ => {
-                lagrangian.solve(&self.factor, residual, delta);
+                lagrangian.solve(&mut self.factor, residual, delta);
                 delta.scale(self.h);
             }
         }

@@ -21,7 +21,7 @@ pub trait StepSolver<L: DiscreteLagrangian> {
 
     /// Solves the equations of the cyclic coordinates of `f` and `c` for given others, where the model does it exactly.
     fn eliminate(
-        &self,
+        &mut self,
         _lagrangian: &L,
         _mu: &Dual<L>,
         _h: f64,

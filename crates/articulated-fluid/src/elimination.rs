@@ -1,0 +1,326 @@
+//! The inertia (4) solved from the leaves to the first body, in time and memory proportional to the bodies.
+//!
+//! [`formulas`](crate::formulas) derives it. A body whose children are eliminated has the momenta
+//! $F_i = A u - K \Omega_i + \varphi$ and $r_i = H \Omega_i - K^T u$ with the velocity $u$ of its joint. Solved for
+//! $\Omega_i$, the force on the joint is $F_i = M^\ast u + f^\ast$: a mass and a momentum, which its parent takes over.
+
+use core::ops::Add;
+
+use dvi::Inertia;
+use lie::{AlgebraOver, DualOver, Mat3, SO3, Scalar, Sym3, Vec3};
+
+use crate::model::Node;
+use crate::{ArticulatedBody, Configuration, Mass};
+
+pub(crate) type Velocity<S = f64> = AlgebraOver<Configuration, S>;
+pub(crate) type Momentum<S = f64> = DualOver<Configuration, S>;
+/// The attitude of the first body, and those of the others.
+pub(crate) type Attitudes<'a, S> = (&'a SO3<S>, &'a [SO3<S>]);
+
+/// What is body `i`'s, where the first body's is apart.
+#[inline(always)]
+pub(crate) fn of<'a, T>((first, rest): (&'a T, &'a [T]), i: usize) -> &'a T {
+    if i == 0 { first } else { &rest[i - 1] }
+}
+
+/// The same, to be changed.
+#[inline(always)]
+pub(crate) fn of_mut<'a, T>((first, rest): (&'a mut T, &'a mut [T]), i: usize) -> &'a mut T {
+    if i == 0 { first } else { &mut rest[i - 1] }
+}
+
+/// One body in the elimination, all in its own frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link<S> {
+    /// $C_i = R_p^T R_i$; unused for the first body.
+    pub(crate) c: Mat3<S>,
+    /// $A$, and once eliminated $M^\ast = A - K H^{-1} K^T$.
+    pub(crate) mass: Sym3<S>,
+    /// $K$, and once eliminated $X = K H^{-1}$.
+    pub(crate) x: Mat3<S>,
+    /// $H$, and once eliminated $H^{-1}$.
+    pub(crate) j_inverse: Sym3<S>,
+    /// $\varphi$, and once eliminated $f^\ast = \varphi - X r$.
+    pub(crate) force: Vec3<S>,
+    /// $r$, and once eliminated $w = H^{-1} r$.
+    pub(crate) w: Vec3<S>,
+    /// $\Omega_i$.
+    pub(crate) omega: Vec3<S>,
+    /// $V_i$.
+    pub(crate) v: Vec3<S>,
+}
+
+impl<S: Scalar> Link<S> {
+    /// A body before its children have been added: $A = M_i$, $K = -M_i \hat d_{ip}$, $H = J'_i$.
+    #[inline(always)]
+    fn reset<M: Mass>(&mut self, node: &Node, mass: &M) {
+        self.mass = Sym3::upper(&mass.matrix()).lift();
+        self.x = node.k.lift();
+        self.j_inverse = node.j_joint.lift();
+    }
+
+    /// A body without children, eliminated.
+    pub(crate) fn alone<M: Mass>(node: &Node, mass: &M) -> Self {
+        let zero = Vec3::zero();
+        let mut link = Self {
+            c: Mat3::identity(),
+            mass: Sym3::zero(),
+            x: Mat3::zero(),
+            j_inverse: Sym3::zero(),
+            force: zero,
+            w: zero,
+            omega: zero,
+            v: zero,
+        };
+        link.reset(node, mass);
+        link.eliminate();
+        link
+    }
+
+    #[inline(always)]
+    fn eliminate(&mut self) {
+        let k = self.x;
+        self.j_inverse = self.j_inverse.inverse();
+        self.x = k * self.j_inverse.matrix();
+        self.mass = self.mass - Sym3::product(&self.x, &k);
+    }
+
+    /// Adds the child's mass $N = C M^\ast C^T$, at the lever $l$.
+    #[inline(always)]
+    fn carry_mass(&mut self, child: &Self, lever: Vec3<S>) {
+        let n = child.mass.turned(&child.c);
+        let nl = n.times_hat(lever);
+        self.mass += n;
+        self.x += nl;
+        self.j_inverse = self.j_inverse - Sym3::upper(&(lever.hat() * nl));
+    }
+
+    /// Adds the child's force $C f^\ast$, at the lever $l$.
+    #[inline(always)]
+    fn carry_force(&mut self, child: &Self, lever: Vec3<S>) {
+        let force = child.c * child.force;
+        self.force += force;
+        self.w -= lever.cross(force);
+    }
+
+    #[inline(always)]
+    fn eliminate_force(&mut self) {
+        self.force -= self.x * self.w;
+        self.w = self.j_inverse * self.w;
+    }
+
+    /// $\Omega_i$ and $V_i$ from the velocity of the joint.
+    #[inline(always)]
+    fn advance(&mut self, u: Vec3<S>, at_self: Vec3<S>) {
+        self.omega = self.w + self.x.transpose_mul(u);
+        self.v = u + at_self.cross(self.omega);
+    }
+
+    /// The velocity of the joint of `child`, in the child's frame: $u = C^T (V_p + \Omega_p \times d_{pi})$.
+    #[inline(always)]
+    fn joint_velocity(&self, child: &Self, at_parent: Vec3<S>) -> Vec3<S> {
+        child.c.transpose_mul(self.v + self.omega.cross(at_parent))
+    }
+}
+
+/// The inertia at a configuration, factorised, with the storage for solves.
+#[derive(Clone, Debug)]
+pub struct Elimination<S = f64> {
+    links: Vec<Link<S>>,
+    /// $M_0^{\ast -1}$.
+    base_inverse: Sym3<S>,
+}
+
+impl<S: Scalar> Elimination<S> {
+    pub(crate) fn new<M: Mass>(tree: &ArticulatedBody<M>) -> Self {
+        let bodies = tree.nodes.iter().zip(&tree.masses);
+        Self {
+            links: bodies.map(|(node, mass)| Link::alone(node, mass)).collect(),
+            base_inverse: Sym3::zero(),
+        }
+    }
+
+    /// Eliminates the bodies from the leaves on. Those without children stay as they were made.
+    #[inline(always)]
+    pub(crate) fn factorise<M: Mass>(&mut self, tree: &ArticulatedBody<M>, r: Attitudes<S>) {
+        for i in (1..tree.nodes.len()).rev() {
+            let node = &tree.nodes[i];
+            let (before, after) = self.links.split_at_mut(i);
+            let (parent, link) = (&mut before[node.parent], &mut after[0]);
+            if node.is_last_sibling {
+                parent.reset(&tree.nodes[node.parent], &tree.masses[node.parent]);
+            }
+            if !node.is_leaf {
+                link.eliminate();
+            }
+            link.c = of(r, node.parent).matrix().transpose() * *of(r, i).matrix();
+            parent.carry_mass(link, node.lever.lift());
+        }
+        let base = &mut self.links[0];
+        if !tree.nodes[0].is_leaf {
+            base.eliminate();
+        }
+        self.base_inverse = base.mass.inverse();
+    }
+
+    /// Eliminates the momenta from the leaves on, and finds the first body's velocity.
+    #[inline(always)]
+    pub(crate) fn begin<M: Mass>(
+        &mut self,
+        tree: &ArticulatedBody<M>,
+        r0: &SO3<S>,
+        (p0, px, p): &Momentum<S>,
+    ) {
+        for (i, link) in self.links.iter_mut().enumerate() {
+            link.force = Vec3::zero();
+            link.w = of((p0, p), i).vec3();
+        }
+        for i in (1..tree.nodes.len()).rev() {
+            let node = &tree.nodes[i];
+            let (before, after) = self.links.split_at_mut(i);
+            let (parent, link) = (&mut before[node.parent], &mut after[0]);
+            link.eliminate_force();
+            parent.carry_force(link, node.lever.lift());
+        }
+        let base = &mut self.links[0];
+        base.eliminate_force();
+        let v = self.base_inverse * (r0.inverse_rotate(px.vec3()) - base.force);
+        base.advance(v, Vec3::zero());
+    }
+
+    /// The velocity of body `i`'s joint, from its parent's velocity; then its own.
+    #[inline(always)]
+    fn advance<M: Mass>(&mut self, tree: &ArticulatedBody<M>, i: usize) -> Vec3<S> {
+        let node = &tree.nodes[i];
+        let (before, after) = self.links.split_at_mut(i);
+        let (parent, link) = (&before[node.parent], &mut after[0]);
+        let u = parent.joint_velocity(link, node.at_parent.lift());
+        link.advance(u, node.at_self.lift());
+        u
+    }
+
+    /// The velocities from the first body on, into `xi`: $\mathbb I(g) \xi = \mu$ is solved.
+    #[inline(always)]
+    fn finish<M: Mass>(&mut self, tree: &ArticulatedBody<M>, r0: &SO3<S>, xi: &mut Velocity<S>) {
+        let base = &self.links[0];
+        xi.0 = base.omega.into();
+        xi.1 = r0.rotate(base.v).into();
+        for (i, xi) in (1..self.links.len()).zip(xi.2.iter_mut()) {
+            self.advance(tree, i);
+            *xi = self.links[i].omega.into();
+        }
+    }
+
+    /// The velocities likewise, and the forces (11)–(13):
+    /// $\tau_i = M_i V_i \times u_i + \sum_{k \text{ on } i} (\Omega_i \times l_k) \times C_k F_k$.
+    #[inline(always)]
+    pub(crate) fn finish_with_forces<M: Mass>(
+        &mut self,
+        tree: &ArticulatedBody<M>,
+        r0: &SO3<S>,
+        xi: &mut Velocity<S>,
+        tau: &mut DualOver<Configuration, S>,
+    ) {
+        let base = &self.links[0];
+        xi.0 = base.omega.into();
+        xi.1 = r0.rotate(base.v).into();
+        tau.0 = tree.masses[0].apply(base.v).cross(base.v).into();
+        tau.1 = Vec3::zero().into();
+        for i in 1..self.links.len() {
+            let u = self.advance(tree, i);
+            let (node, link) = (&tree.nodes[i], &self.links[i]);
+            let momentum = tree.masses[i].apply(link.v);
+            xi.2[i - 1] = link.omega.into();
+            tau.2[i - 1] = momentum.cross(u).into();
+            let on_parent = link.c * (link.mass * u + link.force);
+            let turned = self.links[node.parent].omega.cross(node.lever.lift());
+            let tau = of_mut((&mut tau.0, &mut tau.2), node.parent);
+            *tau = (tau.vec3() + turned.cross(on_parent)).into();
+        }
+    }
+}
+
+/// What a step's iteration uses as its matrix: $\mathbb I(g_k)$, factorised once a step.
+#[derive(Clone, Debug)]
+pub struct Factor {
+    r0: SO3,
+    elimination: Elimination<f64>,
+    /// $F_i - I$.
+    turns: Vec<Mat3>,
+    /// $\left(\sum_i R_i M_i R_i^T\right)^{-1}$: (31) solved for $\Delta x$.
+    total_mass_inverse: Sym3,
+}
+
+impl<M: Mass> Inertia for ArticulatedBody<M> {
+    type Factor = Factor;
+
+    fn factor(&self) -> Factor {
+        Factor {
+            r0: SO3::identity(),
+            elimination: Elimination::new(self),
+            turns: vec![Mat3::zero(); self.nodes.len()],
+            total_mass_inverse: Sym3::zero(),
+        }
+    }
+
+    #[inline(always)]
+    fn factorise(&self, (r0, _, r): &Configuration, factor: &mut Factor) {
+        factor.r0 = *r0;
+        factor.elimination.factorise(self, (r0, r));
+        let masses = self.masses.iter().enumerate();
+        let turned = masses.map(|(i, mass)| mass.turned(of((r0, r), i).matrix()));
+        factor.total_mass_inverse = turned.fold(Sym3::zero(), Sym3::add).inverse();
+    }
+
+    #[inline(always)]
+    fn solve(&self, factor: &mut Factor, mu: &Momentum, xi: &mut Velocity) {
+        factor.elimination.begin(self, &factor.r0, mu);
+        factor.elimination.finish(self, &factor.r0, xi);
+    }
+
+    /// (31) $= p_x$, and the impulse of the weight with it, solved for $\Delta x$.
+    #[inline(always)]
+    fn eliminate(
+        &self,
+        factor: &mut Factor,
+        mu: &Momentum,
+        h: f64,
+        (f0, dx, f): &mut Configuration,
+        c: &mut Velocity,
+    ) {
+        if self.keeps_translation {
+            return;
+        }
+        let turning = factor.turning_momentum(self, (f0, f));
+        let mut rest = mu.1.vec3() * h - factor.r0.rotate(turning);
+        if let Some(weight) = &self.weight {
+            rest += weight.force::<f64>() * (h * h);
+        }
+        let solved = factor.total_mass_inverse * rest;
+        (*dx, c.1) = (solved.into(), solved.into());
+    }
+}
+
+impl Factor {
+    /// $R_0^T \sum_i R_i M_i Y_i$ with the displacements $R_i Y_i$ of the centres that the turns alone make, $\Delta x = 0$.
+    #[inline(always)]
+    fn turning_momentum<M: Mass>(&mut self, tree: &ArticulatedBody<M>, f: Attitudes<f64>) -> Vec3 {
+        let links = &mut self.elimination.links;
+        for (i, e) in self.turns.iter_mut().enumerate() {
+            *e = of(f, i).minus_identity();
+        }
+        (links[0].v, links[0].force) = (Vec3::zero(), Vec3::zero());
+        for i in 1..links.len() {
+            let node = &tree.nodes[i];
+            let joint = links[node.parent].v + self.turns[node.parent] * node.at_parent;
+            let link = &mut links[i];
+            link.v = link.c.transpose_mul(joint) - self.turns[i] * node.at_self;
+            link.force = tree.masses[i].apply(link.v);
+        }
+        for i in (1..links.len()).rev() {
+            let on_parent = links[i].c * links[i].force;
+            links[tree.nodes[i].parent].force += on_parent;
+        }
+        links[0].force
+    }
+}

@@ -1,0 +1,74 @@
+//! Gravity and buoyancy: what acts where a body is heavier or lighter than the water it displaces.
+//!
+//! The net force on body $i$ is $m_i \gamma$ at its mass centre, with the gravity $\gamma$ and the mass $m_i$ less that of the
+//! displaced fluid. The forces are parallel, so each body only needs the sum $w_i$ of its subtree and one constant lever:
+//! $$ U = -\sum_i m_i \gamma \cdot x_i = -w_0\, \gamma \cdot x - \sum_i \gamma \cdot R_i s_i, \qquad s_i = \sum_{k \text{ on } i} w_k d_{ik} - w_i d_{ip(i)} . $$
+
+use lie::{SO3, Scalar, Vec3};
+
+use crate::model::Node;
+
+/// The weight of a tree of bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Weight {
+    /// $\gamma$, m/s², reference frame.
+    gravity: Vec3,
+    /// $w_0$, kg.
+    total: f64,
+    /// $s_i$, kg m, in the body's frame.
+    levers: Vec<Vec3>,
+}
+
+impl Weight {
+    pub(crate) fn new(gravity: Vec3, net_masses: &[f64], nodes: &[Node]) -> Self {
+        let mut sums = net_masses.to_vec();
+        let mut levers = vec![Vec3::zero(); nodes.len()];
+        for (i, node) in nodes.iter().enumerate().skip(1).rev() {
+            sums[node.parent] += sums[i];
+            levers[node.parent] += node.at_parent * sums[i];
+            levers[i] -= node.at_self * sums[i];
+        }
+        Self {
+            gravity,
+            total: sums.first().copied().unwrap_or(0.0),
+            levers,
+        }
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        let levers = self.levers.iter().all(|s| s.is_finite());
+        self.gravity.is_finite() && self.total.is_finite() && levers
+    }
+
+    /// Whether the whole floats: then nothing depends on where it is.
+    pub(crate) fn is_neutral(&self) -> bool {
+        self.total == 0.0
+    }
+
+    /// $w_0 \gamma$, N, reference frame.
+    #[inline(always)]
+    pub(crate) fn force<S: Scalar>(&self) -> Vec3<S> {
+        (self.gravity * self.total).lift()
+    }
+
+    /// The torque on body `i`, $s_i \times R_i^T \gamma$, N m, in its frame.
+    #[inline(always)]
+    pub(crate) fn torque<S: Scalar>(&self, i: usize, r: &SO3<S>) -> Vec3<S> {
+        let down = r.inverse_rotate(self.gravity.lift());
+        self.levers[i].lift::<S>().cross(down)
+    }
+
+    /// $U$, J, of the position of the first body and the attitudes of all.
+    #[inline(always)]
+    pub(crate) fn potential<'a, S: Scalar>(
+        &self,
+        x: Vec3<S>,
+        attitudes: impl Iterator<Item = &'a SO3<S>>,
+    ) -> S {
+        let gravity = self.gravity.lift::<S>();
+        let levers = self.levers.iter().zip(attitudes);
+        levers.fold(-(self.force().dot(x)), |sum, (s, r)| {
+            sum - gravity.dot(r.rotate(s.lift()))
+        })
+    }
+}

@@ -1,0 +1,149 @@
+//! Small symmetric matrices of three by three.
+
+use core::ops::{Add, AddAssign, Mul, Sub};
+
+use crate::{Mat3, Scalar, Vec3};
+
+/// A symmetric 3×3 matrix by its upper triangle, row by row: $a_{11}, a_{12}, a_{13}, a_{22}, a_{23}, a_{33}$.
+///
+/// ```
+/// use lie::{Mat3, Sym3, Vec3};
+///
+/// let a = Sym3([4.0, 1.0, 0.0, 3.0, 0.0, 2.0]);
+/// let x = a.inverse() * (a * Vec3([1.0, 2.0, 3.0]));
+/// assert!((x - Vec3([1.0, 2.0, 3.0])).norm() < 1e-15);
+/// assert_eq!(a.turned(&Mat3::identity()), a);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sym3<S = f64>(pub [S; 6]);
+
+impl<S: Scalar> Sym3<S> {
+    /// The zero matrix.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self([S::zero(); 6])
+    }
+
+    /// $a I$.
+    #[inline(always)]
+    pub fn isotropic(a: S) -> Self {
+        let o = S::zero();
+        Self([a, o, o, a, o, a])
+    }
+
+    /// The upper triangle of a matrix that is symmetric.
+    #[inline(always)]
+    pub fn upper(a: &Mat3<S>) -> Self {
+        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = a.0;
+        Self([xx, xy, xz, yy, yz, zz])
+    }
+
+    /// The upper triangle of $A B^T$, where that is symmetric.
+    #[inline(always)]
+    pub fn product(a: &Mat3<S>, b: &Mat3<S>) -> Self {
+        let entry = |i: usize, j: usize| a.row(i).dot(b.row(j));
+        Self([
+            entry(0, 0),
+            entry(0, 1),
+            entry(0, 2),
+            entry(1, 1),
+            entry(1, 2),
+            entry(2, 2),
+        ])
+    }
+
+    /// All nine entries.
+    #[inline(always)]
+    pub fn matrix(&self) -> Mat3<S> {
+        let [xx, xy, xz, yy, yz, zz] = self.0;
+        Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    }
+
+    /// $A^{-1}$, by the adjugate; of a singular matrix, not finite.
+    #[inline(always)]
+    pub fn inverse(&self) -> Self {
+        let [xx, xy, xz, yy, yz, zz] = self.0;
+        let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
+        let scale = S::one() / (xx * a + xy * b + xz * c);
+        Self([
+            a * scale,
+            b * scale,
+            c * scale,
+            (xx * zz - xz * xz) * scale,
+            (xy * xz - xx * yz) * scale,
+            (xx * yy - xy * xy) * scale,
+        ])
+    }
+
+    /// $C A C^T$: the matrix in the frame that $C$ leads to.
+    #[inline(always)]
+    pub fn turned(&self, c: &Mat3<S>) -> Self {
+        Self::product(&(*c * self.matrix()), c)
+    }
+
+    /// $A \hat x$: the rows of $A$, each crossed with $x$.
+    #[inline(always)]
+    pub fn times_hat(&self, x: Vec3<S>) -> Mat3<S> {
+        let a = self.matrix();
+        Mat3([
+            a.row(0).cross(x).0,
+            a.row(1).cross(x).0,
+            a.row(2).cross(x).0,
+        ])
+    }
+}
+
+impl Sym3<f64> {
+    /// The same matrix over another scalar, as a constant.
+    #[inline(always)]
+    pub fn lift<S: Scalar>(&self) -> Sym3<S> {
+        Sym3::upper(&self.matrix().lift())
+    }
+}
+
+impl<S: Scalar> Mul<Vec3<S>> for Sym3<S> {
+    type Output = Vec3<S>;
+    #[inline(always)]
+    fn mul(self, x: Vec3<S>) -> Vec3<S> {
+        self.matrix() * x
+    }
+}
+
+impl<S: Scalar> Add for Sym3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        let (a, b) = (self.0, b.0);
+        Self([
+            a[0] + b[0],
+            a[1] + b[1],
+            a[2] + b[2],
+            a[3] + b[3],
+            a[4] + b[4],
+            a[5] + b[5],
+        ])
+    }
+}
+
+impl<S: Scalar> Sub for Sym3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        let (a, b) = (self.0, b.0);
+        Self([
+            a[0] - b[0],
+            a[1] - b[1],
+            a[2] - b[2],
+            a[3] - b[3],
+            a[4] - b[4],
+            a[5] - b[5],
+        ])
+    }
+}
+
+impl<S: Scalar> AddAssign for Sym3<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, b: Self) {
+        *self = *self + b;
+    }
+}
