@@ -1,7 +1,7 @@
 //! Rigid ellipsoids on ball joints in a perfect fluid.
 //!
-//! The model of T. Lee, M. Leok, N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect fluid* (2009), for a head
-//! and any number of tails. The fluid is irrotational and incompressible, so that it only adds to the inertia of the bodies:
+//! The model of T. Lee, M. Leok, N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect fluid* (2009), for any tree
+//! of bodies; [`formulas`] derives it. The fluid is irrotational and incompressible, so that it only adds to the inertia of the bodies:
 //! anisotropic masses $M_i$ and inertias $J_i$.
 //!
 //! ```
@@ -24,7 +24,7 @@
 //! |---|---|
 //! | (1)–(3), (6): velocities, kinetic energy | [`Lagrangian::value`](dvi::Lagrangian::value) of [`ArticulatedBody`] |
 //! | (5): added inertia of an ellipsoid | [`Ellipsoid`] |
-//! | (4), (10): inertia, Legendre transform | [`Lagrangian::legendre`](dvi::Lagrangian::legendre), [`Inertia`](dvi::Inertia) |
+//! | (4), (10): inertia, Legendre transform | [`Lagrangian::legendre`](dvi::Lagrangian::legendre), [`Inertia`](dvi::Inertia) by [`Elimination`] |
 //! | (11)–(13), (18)–(20): forces, Hamilton's equations | [`ContinuousSystem`](dvi::ContinuousSystem) of [`ArticulatedBody`] |
 //! | (21): displacement | [`Configuration`] as $f$ |
 //! | (22): discrete Lagrangian | [`DiscreteLagrangian::value`](dvi::DiscreteLagrangian::value) |
@@ -44,6 +44,8 @@ mod discrete;
 mod elimination;
 pub mod ellipsoid;
 mod error;
+#[doc = include_str!("formulas.md")]
+pub mod formulas {}
 mod initial;
 mod mass;
 mod model;

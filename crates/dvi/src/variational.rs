@@ -15,8 +15,10 @@ use crate::{
     State, StepError, StepReport, Variation, legendre_plus,
 };
 
-/// The default [tolerance](Variational::with_tolerance).
+/// The default [tolerance](Variational::with_tolerance) for up to `FEW` coordinates.
 const TOLERANCE: f64 = 1e-13;
+/// The rounding of a residual grows as the root of its coordinates beyond these.
+const FEW: f64 = 12.0;
 /// Evaluations of the balance before a step is given up.
 const MAX_ITERATIONS: u32 = 60;
 /// A residual below this is one that only rounding keeps from the tolerance.
@@ -44,7 +46,7 @@ where
     L: DiscreteLagrangian,
 {
     lagrangian: L,
-    tolerance: f64,
+    tolerance: Option<f64>,
     steps: u64,
     work: Option<Work<L, M>>,
     linearised: Option<Linearised<L::Group>>,
@@ -104,7 +106,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     pub fn with_solver(lagrangian: L) -> Self {
         Self {
             lagrangian,
-            tolerance: TOLERANCE,
+            tolerance: None,
             steps: 0,
             work: None,
             linearised: None,
@@ -114,12 +116,15 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
 
     /// The same integrator with its unknowns in another retraction's chart; the solution does not depend on it.
     pub fn with_retraction<Q: Retraction>(self) -> Variational<L, M, Q> {
-        Variational::with_solver(self.lagrangian).with_tolerance(self.tolerance)
+        let mut other = Variational::with_solver(self.lagrangian);
+        other.tolerance = self.tolerance;
+        other
     }
 
-    /// The largest residual of a solved step relative to the momentum's size; 1e-13 unless set.
+    /// The largest residual of a solved step relative to the momentum's size; unless set, 1e-13 for up to 12 coordinates and
+    /// growing as their root, as rounding does.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
-        self.tolerance = tolerance;
+        self.tolerance = Some(tolerance);
         self
     }
 
@@ -236,7 +241,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
 
     /// Solves the balance from the extrapolated guess, and once more from zero where that fails.
     fn solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, StepError> {
-        let (step, t, tolerance) = (self.steps, state.t, self.tolerance);
+        let (step, t) = (self.steps, state.t);
         self.check(t, h, &state.g)?;
         let fits = |work: &Work<L, M>| work.next.same_shape(&state.g);
         if !self.work.as_ref().is_some_and(fits) {
@@ -254,6 +259,8 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
                 found,
             });
         }
+        let reachable = || TOLERANCE * (shape.dim() as f64 / FEW).sqrt().max(1.0);
+        let tolerance = self.tolerance.unwrap_or_else(reachable);
         let size = norm(&state.mu);
         if !size.is_finite() {
             return Err(StepError::NotFinite { step, t, h });
