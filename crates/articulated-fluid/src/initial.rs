@@ -3,14 +3,16 @@
 use dvi::{Lagrangian, State};
 use lie::{LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
 
-use crate::scene::{SceneBody, SceneJoint};
+use crate::scene::{SceneBody, SceneJoint, StartVelocity};
 use crate::{ArticulatedBody, Body, Configuration, Joint, ModelError, Scene};
+
+type Algebra = <Configuration as LieGroup>::Algebra;
 
 impl Scene {
     /// The model of this scene.
     ///
     /// # Errors
-    /// None for a scene that was parsed; [`ModelError`] for one that was made by hand and is not a model.
+    /// [`ModelError`] where numbers are too large or small for each other, or a scene made by hand is not a model.
     pub fn model(&self) -> Result<ArticulatedBody, ModelError> {
         let body = |body: &SceneBody| Body {
             mass: Mat3(body.total_mass),
@@ -24,40 +26,71 @@ impl Scene {
         };
         let bodies: Vec<_> = self.bodies.iter().map(body).collect();
         let joints: Vec<_> = self.joints.iter().map(joint).collect();
-        ArticulatedBody::new(&bodies, &joints)
+        let model = ArticulatedBody::new(&bodies, &joints)?;
+        let net_masses: Vec<f64> = self.bodies.iter().map(|body| body.net_mass).collect();
+        match self.gravity != [0.0; 3] && net_masses.iter().any(|mass| *mass != 0.0) {
+            true => model.with_gravity(Vec3(self.gravity), &net_masses),
+            false => Ok(model),
+        }
     }
 
     /// The state at t = 0: attitudes and velocities as given, the momentum by the Legendre transform (10).
     ///
     /// # Errors
-    /// As [`model`](Self::model), and [`ModelError::NotFinite`] where a momentum overflows.
+    /// As [`model`](Self::model), and [`ModelError::NotFinite`] where a velocity or a momentum overflows.
     pub fn initial_state(&self) -> Result<State<Configuration>, ModelError> {
         let model = self.model()?;
-        let mut attitudes = self
-            .bodies
-            .iter()
-            .map(|body| SO3::from_quaternion(body.attitude));
-        let mut rates = self
-            .bodies
-            .iter()
-            .map(|body| Tangent(body.angular_velocity));
-        let (head, rate) = attitudes
-            .next()
-            .zip(rates.next())
-            .ok_or(ModelError::NoBody)?;
-        let g = (head, Rn(self.position), attitudes.collect());
-        let xi = (rate, Tangent(self.velocity), rates.collect());
+        let g = self.configuration()?;
+        let xi = self.velocities(&model, &g)?;
         let mu = Lagrangian::legendre(&model, 0.0, &g, &xi);
-        if !g.is_finite() {
-            return Err(ModelError::NotFinite {
-                quantity: "configuration",
-            });
-        }
-        if !mu.max_magnitude().is_finite() {
-            return Err(ModelError::NotFinite {
-                quantity: "momentum",
-            });
-        }
+        require(g.is_finite(), "configuration")?;
+        require(mu.max_magnitude().is_finite(), "momentum")?;
         Ok(State { t: 0.0, g, mu })
+    }
+
+    fn configuration(&self) -> Result<Configuration, ModelError> {
+        let attitude = |body: &SceneBody| SO3::from_quaternion(body.attitude);
+        let (head, tails) = self.bodies.split_first().ok_or(ModelError::NoBody)?;
+        let tails = tails.iter().map(attitude).collect();
+        Ok((attitude(head), Rn(self.position), tails))
+    }
+
+    fn velocities(
+        &self,
+        model: &ArticulatedBody,
+        g: &Configuration,
+    ) -> Result<Algebra, ModelError> {
+        let rate = |body: &SceneBody| Tangent(body.angular_velocity);
+        let (head, tails) = self.bodies.split_first().ok_or(ModelError::NoBody)?;
+        let tails = tails.iter().map(rate).collect();
+        let mut xi = (rate(head), Tangent([0.0; 3]), tails);
+        match self.velocity {
+            StartVelocity::Given(velocity) => xi.1 = Tangent(velocity),
+            StartVelocity::ZeroMomentum => {
+                let inverse = self.total_mass(g).inverse();
+                // The second time for the rounding of the first.
+                for _ in 0..2 {
+                    let linear = Lagrangian::legendre(model, 0.0, g, &xi).1.vec3();
+                    xi.1 = Tangent((xi.1.vec3() - inverse * linear).0);
+                }
+            }
+        }
+        require(xi.1.vec3().is_finite(), "velocity")?;
+        Ok(xi)
+    }
+
+    /// $\sum_i R_i M_i R_i^T$, the slope of the total linear momentum in the velocity of the head.
+    fn total_mass(&self, g: &Configuration) -> Mat3 {
+        let attitudes = core::iter::once(&g.0).chain(g.2.iter());
+        let bodies = attitudes.zip(&self.bodies);
+        let turned = bodies.map(|(r, body)| r.matrix().conjugate(Mat3(body.total_mass)));
+        turned.fold(Mat3::zero(), |sum, mass| sum + mass)
+    }
+}
+
+fn require(finite: bool, quantity: &'static str) -> Result<(), ModelError> {
+    match finite {
+        true => Ok(()),
+        false => Err(ModelError::NotFinite { quantity }),
     }
 }

@@ -1,41 +1,172 @@
-//! Every scene of the collection is a model in motion.
+//! The scenes of the collection: read, apart, in motion, and what each of them shows.
 
 use std::path::{Path, PathBuf};
 
-use articulated_fluid::Scene;
-use lie::VectorSpace;
+use articulated_fluid::scene::StartVelocity;
+use articulated_fluid::{ArticulatedBody, Configuration, Conserved, Scene};
+use dvi::State;
+use lie::{Vec3, VectorSpace};
 
-fn files() -> Vec<PathBuf> {
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let entries = std::fs::read_dir(scenes).expect("the scenes");
-    let paths = entries.map(|entry| entry.expect("an entry").path());
-    paths
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .collect()
+fn directory() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
+#[track_caller]
+fn load(file: &str) -> Scene {
+    Scene::load(&directory().join(file)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Every scene with the name of its file.
+fn all() -> Vec<(String, Scene)> {
+    let entries = std::fs::read_dir(directory()).expect("the scenes");
+    let names = entries.map(|entry| entry.expect("an entry").file_name());
+    let names = names.map(|name| name.into_string().expect("a name"));
+    names.map(|name| (name.clone(), load(&name))).collect()
+}
+
+fn start(scene: &Scene) -> (ArticulatedBody, State<Configuration>, Conserved) {
+    let model = scene.model().expect("a model");
+    let state = scene.initial_state().expect("a state");
+    let conserved = model.conserved(&state).expect("the model's state");
+    (model, state, conserved)
+}
+
+#[test]
+fn every_scene_is_read_and_has_a_title() {
+    let scenes = all();
+    assert!(scenes.len() >= 7);
+    assert!(scenes.iter().all(|(_, scene)| scene.title.is_some()));
 }
 
 #[test]
 fn every_scene_has_a_model_and_an_initial_state() {
-    for path in files() {
-        let scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
-        let model = scene.model().expect("a model");
-        let state = scene.initial_state().expect("a state");
+    for (name, scene) in all() {
+        let (model, state, conserved) = start(&scene);
         assert_eq!(model.bodies().len(), scene.bodies.len());
         assert_eq!(state.t, 0.0);
         assert_eq!(state.g.1.0, scene.position);
-        // The momentum's velocity is the scene's: rounding times the condition of the inertia.
-        let xi = model.velocity(&state).expect("the model's state");
-        let heads = [scene.bodies[0].angular_velocity, scene.velocity];
-        let tails = scene.bodies[1..].iter().map(|body| body.angular_velocity);
-        let given: Vec<f64> = heads.into_iter().chain(tails).flatten().collect();
-        for (found, given) in xi.coordinates().into_iter().zip(given) {
-            assert!((found - given).abs() < 1e-12, "{}", path.display());
-        }
-        let kept = model.conserved(&state).expect("the model's state");
         assert!(
-            kept.energy > 0.0 && kept.energy.is_finite(),
-            "{}",
-            path.display()
+            conserved.energy > 0.0 && conserved.energy.is_finite(),
+            "{name}"
         );
+        // The momentum's velocity is the scene's: rounding times the condition of the inertia.
+        let (head, velocity, tails) = model.velocity(&state).expect("the model's state");
+        if let StartVelocity::Given(given) = scene.velocity {
+            assert_close(&name, velocity.vec3(), given);
+        }
+        for (rate, body) in core::iter::once(&head)
+            .chain(tails.iter())
+            .zip(&scene.bodies)
+        {
+            assert_close(&name, rate.vec3(), body.angular_velocity);
+        }
     }
+}
+
+#[track_caller]
+fn assert_close(name: &str, found: Vec3, given: [f64; 3]) {
+    assert!(
+        (found - Vec3(given)).norm() < 1e-11,
+        "{name}: {found:?} for {given:?}"
+    );
+}
+
+#[test]
+fn a_start_without_momentum_has_none_to_rounding() {
+    for (name, scene) in all() {
+        if scene.velocity == StartVelocity::ZeroMomentum {
+            let (_, state, conserved) = start(&scene);
+            let size = state.mu.max_magnitude();
+            for linear in [state.mu.1.vec3(), conserved.linear] {
+                println!("{name}: {:.1e} of {size:.1e}", linear.norm());
+                assert!(linear.norm() < 1e-13 * size.max(1.0), "{name}: {linear:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_dry_chain_has_the_energy_and_momentum_worked_out_by_hand() {
+    let (_, _, conserved) = start(&load("dry-chain.toml"));
+    assert!(
+        (conserved.energy - 4.540_184_583_3).abs() < 1e-10,
+        "{conserved:?}"
+    );
+    let expected = Vec3([0.25, 9.7545, 21.3294]);
+    assert!(
+        (conserved.angular - expected).norm() < 1e-10,
+        "{conserved:?}"
+    );
+}
+
+#[test]
+fn the_planar_fish_starts_in_its_plane() {
+    let scene = load("planar-fish.toml");
+    let (model, state, _) = start(&scene);
+    let (head, velocity, tails) = model.velocity(&state).expect("the model's state");
+    assert!(velocity.vec3()[2].abs() < 1e-15);
+    for rate in core::iter::once(&head).chain(tails.iter()) {
+        let [x, y, _] = rate.vec3().0;
+        assert!(x.abs().max(y.abs()) < 1e-15, "{rate:?}");
+    }
+    assert!(
+        scene
+            .joints
+            .iter()
+            .all(|joint| joint.at_parent[2] == 0.0 && joint.at_child[2] == 0.0)
+    );
+}
+
+#[test]
+fn the_eel_floats_and_the_robot_sinks() {
+    assert!(
+        load("eel.toml")
+            .bodies
+            .iter()
+            .all(|body| body.net_mass == 0.0)
+    );
+    let robot = load("branching-robot.toml");
+    let net: f64 = robot.bodies.iter().map(|body| body.net_mass).sum();
+    println!("the robot: {net} kg heavier than the water");
+    assert!(net > 0.5 && net < 5.0);
+    assert_eq!(robot.gravity, [0.0, 0.0, -9.81]);
+}
+
+#[test]
+fn the_printed_fish_follows_from_its_semi_axes() {
+    let (printed, computed) = (
+        load("fish-chain.toml"),
+        load("fish-chain-from-semi-axes.toml"),
+    );
+    assert_eq!(printed.joints, computed.joints);
+    assert_eq!(printed.velocity, computed.velocity);
+    assert_eq!(printed.density, 1.0 / (32.0 * std::f64::consts::PI));
+    assert_eq!(printed.density, computed.density);
+    for (printed, computed) in printed.bodies.iter().zip(&computed.bodies) {
+        assert_eq!(printed.name, computed.name);
+        assert_eq!(printed.semi_axes, computed.semi_axes);
+        assert_eq!(printed.angular_velocity, computed.angular_velocity);
+        for (table, value) in [
+            (printed.total_mass, computed.total_mass),
+            (printed.total_inertia, computed.total_inertia),
+        ] {
+            for (table, value) in diagonal(table).into_iter().zip(diagonal(value)) {
+                assert_eq!(table, (value * 1e4).round() / 1e4);
+            }
+        }
+    }
+}
+
+fn diagonal(matrix: [[f64; 3]; 3]) -> [f64; 3] {
+    [matrix[0][0], matrix[1][1], matrix[2][2]]
+}
+
+#[test]
+fn the_printed_fish_has_no_linear_momentum() {
+    let (_, _, conserved) = start(&load("fish-chain.toml"));
+    // The velocity is printed to 5e-5, for a total mass of about 3.5 kg.
+    assert!(
+        conserved.linear.0.iter().all(|p| p.abs() < 2e-4),
+        "{conserved:?}"
+    );
 }

@@ -1,53 +1,46 @@
-//! The joints of a scene: a star with the first body in the middle.
+//! The joints of a scene: a tree with the first body as its root.
 
 use toml::Spanned;
 
 use super::SceneJoint;
+use super::bodies::Names;
 use super::error::SceneError;
 use super::raw::{Node, RawJoint};
-use super::source::Source;
+use super::source::{Source, quote};
 use super::values::array;
 
 /// The joints between the bodies of these `names`.
 pub(super) fn check(
     raw: &[Node<RawJoint>],
-    names: &[&Spanned<String>],
+    names: &Names,
     source: &Source,
 ) -> Result<Vec<SceneJoint>, SceneError> {
-    let mut lines: Vec<Option<usize>> = vec![None; names.len()];
-    let mut joints = Vec::with_capacity(raw.len());
-    for node in raw {
-        let joint = joint(node, names, source)?;
-        claim(node, &mut lines[joint.child], source)?;
-        joints.push(joint);
+    let joint = |node| joint(node, names, source);
+    let joints = raw.iter().map(joint).collect::<Result<Vec<_>, _>>()?;
+    let parents = parents(raw, &joints, names, source)?;
+    for (node, joint) in raw.iter().zip(&joints) {
+        if joint.parent > joint.child {
+            return Err(out_of_order(node, joint, &parents, names, source));
+        }
     }
-    every_tail_hangs(names, &lines, source)?;
+    every_other_body_hangs(&parents, names, source)?;
     Ok(joints)
 }
 
-fn joint(
-    node: &Node<RawJoint>,
-    names: &[&Spanned<String>],
-    source: &Source,
-) -> Result<SceneJoint, SceneError> {
+fn joint(node: &Node<RawJoint>, names: &Names, source: &Source) -> Result<SceneJoint, SceneError> {
     let raw = &node.get_ref().0;
     let parent_name = source.require(node, "parent", &raw.parent)?;
     let child_name = source.require(node, "child", &raw.child)?;
     let parent = index(parent_name, names, source)?;
     let child = index(child_name, names, source)?;
-    if parent != 0 {
-        let what = "a tail on a tail, i.e. a tree, is not supported by this version";
-        return Err(source.fail(
-            parent_name.span(),
-            &format!("{what}; expected the first body, {:?}", names[0].get_ref()),
-        ));
+    let (span, text) = (child_name.span(), child_name.get_ref());
+    if parent == child {
+        let message = format!("{text:?} hangs on itself; expected another body than the parent");
+        return Err(source.fail(span, &message));
     }
     if child == 0 {
-        let what = format!(
-            "{:?} is the first body, on which the others hang",
-            child_name.get_ref()
-        );
-        return Err(source.wrong(child_name.span(), &what));
+        let what = format!("{text:?} is the first body, on which the others hang");
+        return Err(source.wrong(span, &what));
     }
     Ok(SceneJoint {
         parent,
@@ -57,55 +50,91 @@ fn joint(
     })
 }
 
-fn index(
-    name: &Spanned<String>,
-    names: &[&Spanned<String>],
-    source: &Source,
-) -> Result<usize, SceneError> {
-    names
-        .iter()
-        .position(|known| known.get_ref() == name.get_ref())
-        .ok_or_else(|| {
-            let known: Vec<&str> = names.iter().map(|n| n.get_ref().as_str()).collect();
-            let what = format!("no body is named {:?}", name.get_ref());
-            let message = format!("{what}; expected one of {}", known.join(", "));
-            source.fail(name.span(), &message)
-        })
+fn index(name: &Spanned<String>, names: &Names, source: &Source) -> Result<usize, SceneError> {
+    let found = names.index.get(name.get_ref().as_str());
+    found.copied().ok_or_else(|| {
+        let known: Vec<&str> = names.listed.iter().map(|n| n.get_ref().as_str()).collect();
+        let known = quote(&known.join(", "));
+        let message = format!(
+            "no body is named {:?}; expected one of {known}",
+            name.get_ref()
+        );
+        source.fail(name.span(), &message)
+    })
 }
 
-/// Notes the joint of a child that has none yet.
-fn claim(
-    node: &Node<RawJoint>,
-    line: &mut Option<usize>,
+/// The parent of each body that is the child of a joint, and of no other.
+fn parents(
+    raw: &[Node<RawJoint>],
+    joints: &[SceneJoint],
+    names: &Names,
     source: &Source,
-) -> Result<(), SceneError> {
-    let child = node.get_ref().0.child.as_ref();
-    let span = child.map_or_else(|| node.span(), Spanned::span);
-    match line.replace(source.line(span.clone())) {
-        None => Ok(()),
-        Some(earlier) => {
-            let what = format!("the child of the joint in line {earlier} already");
-            Err(source.fail(
-                span,
-                &format!("{what}; expected one joint for each body but the first"),
-            ))
+) -> Result<Vec<Option<usize>>, SceneError> {
+    let mut above: Vec<Option<usize>> = vec![None; names.listed.len()];
+    for (index, joint) in joints.iter().enumerate() {
+        if let Some(earlier) = above[joint.child].replace(index) {
+            let line = source.line(child_span(&raw[earlier]));
+            let what = format!("the child of the joint in line {line} already");
+            let message = format!("{what}; expected one joint for each body but the first");
+            return Err(source.fail(child_span(&raw[index]), &message));
         }
     }
+    let parent = |index: usize| joints[index].parent;
+    Ok(above.into_iter().map(|index| index.map(parent)).collect())
 }
 
-fn every_tail_hangs(
-    names: &[&Spanned<String>],
-    lines: &[Option<usize>],
+fn child_span(node: &Node<RawJoint>) -> std::ops::Range<usize> {
+    let child = node.get_ref().0.child.as_ref();
+    child.map_or_else(|| node.span(), Spanned::span)
+}
+
+/// The error that a child is listed before its parent, which no order mends in a cycle.
+fn out_of_order(
+    node: &Node<RawJoint>,
+    joint: &SceneJoint,
+    parents: &[Option<usize>],
+    names: &Names,
+    source: &Source,
+) -> SceneError {
+    let upwards = std::iter::successors(Some(joint.parent), |body| parents[*body]);
+    let chain: Vec<usize> = upwards.take(parents.len()).collect();
+    let message = match chain.iter().position(|body| *body == joint.child) {
+        Some(end) => cycle(&chain[..=end], names),
+        None => {
+            let [parent, child] =
+                [joint.parent, joint.child].map(|body| names.listed[body].get_ref());
+            format!(
+                "{child:?} hangs on {parent:?}, which is listed after it; list {parent:?} first"
+            )
+        }
+    };
+    let parent = node.get_ref().0.parent.as_ref();
+    source.fail(parent.map_or_else(|| node.span(), Spanned::span), &message)
+}
+
+fn cycle(bodies: &[usize], names: &Names) -> String {
+    let name = |body: &usize| format!("{:?}", names.listed[*body].get_ref());
+    let listed: Vec<String> = bodies.iter().map(name).collect();
+    let (listed, root) = (quote(&listed.join(", ")), name(&0));
+    format!(
+        "{listed} hang on each other in a cycle; hang one of them on {root} or on a body that hangs on it"
+    )
+}
+
+fn every_other_body_hangs(
+    parents: &[Option<usize>],
+    names: &Names,
     source: &Source,
 ) -> Result<(), SceneError> {
-    for (name, line) in names.iter().zip(lines).skip(1) {
-        if line.is_none() {
+    let bodies = names.listed.iter().zip(parents).skip(1);
+    match bodies.into_iter().find(|(_, parent)| parent.is_none()) {
+        None => Ok(()),
+        Some((name, _)) => {
             let text = name.get_ref();
             let message = format!(
                 "{text:?} is the child of no joint; expected a [[joint]] with child = {text:?}"
             );
-            return Err(source.fail(name.span(), &message));
+            Err(source.fail(name.span(), &message))
         }
     }
-    Ok(())
 }

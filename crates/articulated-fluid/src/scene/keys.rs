@@ -33,6 +33,12 @@ const REQUIRED: &str = "required";
 /// Every key that a scene file may have, in the order of the schema.
 pub const KEYS: &[Key] = &[
     key("title", "a string", "none", "what the scene shows"),
+    key(
+        "gravity",
+        "an array of 3 finite numbers, in m/s^2",
+        "zero",
+        "acceleration of gravity in the reference frame; less buoyancy, it acts at the mass centres",
+    ),
     key("fluid", "one table [fluid]", REQUIRED, "the perfect fluid"),
     key(
         "fluid.density",
@@ -54,15 +60,15 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "start.velocity",
-        "an array of 3 finite numbers, in m/s",
+        "an array of 3 finite numbers, in m/s, or \"zero-momentum\"",
         "zero",
-        "velocity in the reference frame",
+        "velocity in the reference frame; \"zero-momentum\": that of no total linear momentum",
     ),
     key(
         "body",
         "one table [[body]] for each body",
         "at least one is required",
-        "a rigid body; the first is the head, on which the others hang",
+        "a rigid body; on the first, the head, the others hang, each listed after its parent",
     ),
     key(
         "body.name",
@@ -73,41 +79,95 @@ pub const KEYS: &[Key] = &[
     key(
         "body.semi_axes",
         "an array of 3 finite numbers > 0, in m",
-        "total_mass and total_inertia",
+        "another form: mass and inertia, or total_mass and total_inertia",
         "semi-axes along the body's x, y, z of a uniform ellipsoid; \
          its added mass and inertia follow",
     ),
     key(
         "body.mass",
         "a finite number > 0, in kg",
-        "neutral buoyancy: fluid density times volume",
-        "mass of the body alone, with semi_axes",
+        "with semi_axes neutral buoyancy: fluid density times volume",
+        "mass of the body alone, with semi_axes or inertia",
+    ),
+    key(
+        "body.inertia",
+        "an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
+         (symmetric, positive definite), in kg m^2",
+        "another form: semi_axes, or total_mass and total_inertia",
+        "inertia of the body alone about the mass centre, in the body's frame, with mass",
+    ),
+    key(
+        "body.added_mass",
+        "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers \
+         (symmetric, positive semidefinite), in kg",
+        "zero",
+        "added mass in the body's frame, with inertia",
+    ),
+    key(
+        "body.added_inertia",
+        "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers \
+         (symmetric, positive semidefinite), in kg m^2",
+        "zero",
+        "added inertia about the mass centre, in the body's frame, with inertia",
+    ),
+    key(
+        "body.volume",
+        "a finite number >= 0, in m^3",
+        "that of shape; required with gravity in a fluid",
+        "displaced volume, with inertia; its buoyancy acts at the mass centre",
     ),
     key(
         "body.total_mass",
         "an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
          (symmetric, positive definite), in kg",
-        "from semi_axes and mass",
-        "mass of the body plus added mass, in the body's frame",
+        "another form: semi_axes, or mass and inertia",
+        "mass of the body plus added mass, in the body's frame; not with gravity",
     ),
     key(
         "body.total_inertia",
         "an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
          (symmetric, positive definite), in kg m^2",
-        "from semi_axes and mass",
+        "another form: semi_axes, or mass and inertia",
         "inertia of the body plus added inertia about the mass centre, in the body's frame",
     ),
     key(
+        "body.shape",
+        "an array of 3 finite numbers > 0, in m",
+        "none",
+        "semi-axes of the body's ellipsoid, with inertia or total_mass: \
+         for warnings of overlap and the default of volume",
+    ),
+    key(
         "body.attitude",
-        "an array of 4 numbers w, x, y, z: a quaternion of length 1 (to 1e-6)",
-        "[1, 0, 0, 0], the identity",
+        "an array of 4 numbers w, x, y, z: a quaternion of length 1 (to 1e-6), \
+         a table { axis, angle } or \"aligned\"",
+        "\"aligned\" with the reference frame",
         "initial attitude, body to reference frame",
+    ),
+    key(
+        "body.attitude.axis",
+        "an array of 3 finite numbers, not all 0",
+        REQUIRED,
+        "direction of the axis of rotation",
+    ),
+    key(
+        "body.attitude.angle",
+        "a finite number, in rad",
+        REQUIRED,
+        "angle of rotation about the axis",
     ),
     key(
         "body.angular_velocity",
         "an array of 3 finite numbers, in rad/s",
         "zero",
         "initial angular velocity in the body's frame",
+    ),
+    key(
+        "body.joint_rate",
+        "an array of 3 finite numbers, in rad/s",
+        "angular_velocity",
+        "initial angular velocity relative to the parent, in the body's frame; \
+         not for the first body",
     ),
     key(
         "joint",
@@ -117,7 +177,7 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "joint.parent",
-        "the name of the first body",
+        "the name of a body listed before the child",
         REQUIRED,
         "the body on which the child hangs",
     ),

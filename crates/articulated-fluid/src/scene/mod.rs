@@ -8,13 +8,16 @@
 //! wrong in a file is reported as `FILE:LINE:COLUMN: KEY: what is wrong; expected ...`, where the
 //! line is that of the key. Unknown keys are errors.
 //!
-//! The bodies form a star: the first body is the head, and every other one hangs on the head by
-//! exactly one ball joint.
+//! The bodies form a tree: the first body is its root, the head, and every other one hangs by exactly
+//! one ball joint on a body that is listed before it.
 
 mod bodies;
 mod error;
+mod forms;
 mod joints;
 mod keys;
+mod matrices;
+mod rates;
 mod raw;
 mod source;
 mod values;
@@ -24,6 +27,7 @@ use std::path::Path;
 pub use error::SceneError;
 pub use keys::{KEYS, Key, reference};
 
+use forms::Surroundings;
 use raw::{RawScene, RawStart};
 use source::Source;
 
@@ -35,16 +39,27 @@ pub const EXAMPLE: &str = include_str!("example.toml");
 pub struct Scene {
     /// What the scene shows, for people.
     pub title: Option<String>,
+    /// Acceleration of gravity in the reference frame, m/s².
+    pub gravity: [f64; 3],
     /// Density $\rho \ge 0$ of the fluid, kg/m³; 0 is a vacuum.
     pub density: f64,
-    /// The bodies, at least one; the first is the head.
+    /// The bodies, at least one; the first is the head, and each comes after its parent.
     pub bodies: Vec<SceneBody>,
-    /// The joints: one for each body but the head, which is the parent of each.
+    /// The joints: one for each body but the head.
     pub joints: Vec<SceneJoint>,
     /// Initial position of the head's mass centre in the reference frame, m.
     pub position: [f64; 3],
-    /// Initial velocity of the head's mass centre in the reference frame, m/s.
-    pub velocity: [f64; 3],
+    /// Initial velocity of the head's mass centre in the reference frame.
+    pub velocity: StartVelocity,
+}
+
+/// The initial velocity of the head's mass centre in the reference frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StartVelocity {
+    /// As given, m/s.
+    Given([f64; 3]),
+    /// The one for which the total linear momentum vanishes.
+    ZeroMomentum,
 }
 
 /// A rigid body of a [`Scene`].
@@ -52,13 +67,15 @@ pub struct Scene {
 pub struct SceneBody {
     /// Name: unique in the scene, made of ASCII letters, digits, `-` and `_`.
     pub name: String,
-    /// Semi-axes along the body's $x, y, z$, m, if the body was given by them.
+    /// Semi-axes along the body's $x, y, z$, m, of the ellipsoid that the body is, or that it is given as its shape.
     pub semi_axes: Option<[f64; 3]>,
     /// Mass of the body plus added mass in the body frame, kg: symmetric, positive definite.
     pub total_mass: [[f64; 3]; 3],
     /// Inertia of the body plus added inertia about its mass centre in the body frame, kg m²:
     /// symmetric, positive definite.
     pub total_inertia: [[f64; 3]; 3],
+    /// Mass of the body less that of the displaced fluid, kg; 0 where it is not known, as only without gravity.
+    pub net_mass: f64,
     /// Initial attitude, body to reference frame: a quaternion $w, x, y, z$ of length 1.
     pub attitude: [f64; 4],
     /// Initial angular velocity in the body frame, rad/s.
@@ -68,7 +85,7 @@ pub struct SceneBody {
 /// A ball joint of a [`Scene`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneJoint {
-    /// Index of the parent in [`Scene::bodies`]; 0 in this version.
+    /// Index of the parent in [`Scene::bodies`], before the child.
     pub parent: usize,
     /// Index of the child in [`Scene::bodies`].
     pub child: usize,
@@ -102,16 +119,23 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError::Invalid`] for the first thing wrong: TOML syntax, an unknown or missing key,
-    /// a value of the wrong type or size, not finite or out of range, a joint to no body.
+    /// a value of the wrong type or size, not finite or out of range, joints that make no tree.
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
         let source = Source::new(text, file)?;
         let raw: RawScene = source.read()?;
         let density = density(&raw, &source)?;
-        let (names, bodies) = bodies::check(&raw.body, density, &source)?;
+        let gravity = values::triple_or_zero(raw.gravity.as_ref(), &source)?;
+        let around = Surroundings {
+            density,
+            gravity: gravity != [0.0; 3],
+        };
+        let (names, mut bodies) = bodies::check(&raw.body, &around, &source)?;
         let joints = joints::check(&raw.joint, &names, &source)?;
+        rates::set(&raw.body, &joints, &mut bodies, &source)?;
         let (position, velocity) = start(raw.start.as_ref().map(|s| &s.get_ref().0), &source)?;
         Ok(Self {
             title: raw.title,
+            gravity,
             density,
             bodies,
             joints,
@@ -137,20 +161,15 @@ impl Scene {
 fn density(raw: &RawScene, source: &Source) -> Result<f64, SceneError> {
     let fluid = raw.fluid.as_ref().ok_or_else(|| source.absent("fluid"))?;
     let density = source.require(fluid, "density", &fluid.get_ref().0.density)?;
-    let value = *density.get_ref();
-    if value.is_finite() && value >= 0.0 {
-        Ok(value)
-    } else {
-        Err(source.wrong(density.span(), &format!("is {value:?}")))
-    }
+    values::not_negative(density, source)
 }
 
-fn start(raw: Option<&RawStart>, source: &Source) -> Result<([f64; 3], [f64; 3]), SceneError> {
+fn start(raw: Option<&RawStart>, source: &Source) -> Result<([f64; 3], StartVelocity), SceneError> {
     match raw {
-        None => Ok(([0.0; 3], [0.0; 3])),
+        None => Ok(([0.0; 3], StartVelocity::Given([0.0; 3]))),
         Some(start) => Ok((
             values::triple_or_zero(start.position.as_ref(), source)?,
-            values::triple_or_zero(start.velocity.as_ref(), source)?,
+            values::start_velocity(&start.velocity, source)?,
         )),
     }
 }

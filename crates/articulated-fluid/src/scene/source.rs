@@ -197,7 +197,7 @@ fn wrong_type(message: &str, written: &str) -> String {
 }
 
 /// `text` on one line and not too long.
-fn quote(text: &str) -> String {
+pub(super) fn quote(text: &str) -> String {
     let escape = |c: char| match c.is_control() {
         true => c.escape_debug().to_string(),
         false => c.to_string(),

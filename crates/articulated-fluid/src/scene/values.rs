@@ -1,31 +1,25 @@
-//! Values of keys: vectors, quaternions and symmetric positive definite matrices.
+//! Values of keys: numbers, vectors and rotations.
+
+use std::ops::Range;
 
 use toml::Spanned;
 
+use super::StartVelocity;
 use super::error::SceneError;
-use super::raw::{Entry, Field};
+use super::raw::{Field, RawAxisAngle, RawRotation, WordOr};
 use super::source::Source;
 
-/// Rows.
-type Matrix = [[f64; 3]; 3];
-
-/// How far from 1 the length of an attitude may be before it is normalised.
+/// How far from 1 the length of a quaternion may be before it is normalised.
 const UNIT: f64 = 1e-6;
-
-/// How far from symmetric a matrix may be, relative to its largest element.
-const SYMMETRIC: f64 = 1e-12;
-
-/// Below this multiple of the diagonal element a pivot is rounding.
-const DEFINITE: f64 = 8.0 * f64::EPSILON;
 
 /// A number that is finite and > 0.
 pub(super) fn positive(field: &Spanned<f64>, source: &Source) -> Result<f64, SceneError> {
-    let value = *field.get_ref();
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(source.wrong(field.span(), &format!("is {value:?}")))
-    }
+    number(field, |value| value > 0.0, source)
+}
+
+/// A number that is finite and >= 0.
+pub(super) fn not_negative(field: &Spanned<f64>, source: &Source) -> Result<f64, SceneError> {
+    number(field, |value| value >= 0.0, source)
 }
 
 /// An array of `N` finite numbers.
@@ -44,34 +38,94 @@ pub(super) fn triple_or_zero(
     field.map_or(Ok([0.0; 3]), |field| array(field, source))
 }
 
-/// A quaternion of length 1, the identity if the key is missing.
-pub(super) fn attitude(field: &Field<Vec<f64>>, source: &Source) -> Result<[f64; 4], SceneError> {
+/// The velocity of the first body, zero if the key is missing.
+pub(super) fn start_velocity(
+    field: &Field<WordOr<Vec<f64>>>,
+    source: &Source,
+) -> Result<StartVelocity, SceneError> {
     let Some(field) = field else {
-        return Ok([1.0, 0.0, 0.0, 0.0]);
+        return Ok(StartVelocity::Given([0.0; 3]));
     };
-    let quaternion: [f64; 4] = array(field, source)?;
-    let length = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if (length - 1.0).abs() <= UNIT {
-        Ok(quaternion.map(|x| x / length))
-    } else {
-        Err(source.wrong(field.span(), &format!("has length {length:?}")))
+    match field.get_ref() {
+        WordOr::Word(word) if word == "zero-momentum" => Ok(StartVelocity::ZeroMomentum),
+        WordOr::Word(word) => Err(unknown_word(word, field.span(), source)),
+        WordOr::Value(values) => finite(values)
+            .map(StartVelocity::Given)
+            .map_err(|what| source.wrong(field.span(), &what)),
     }
 }
 
-/// A symmetric positive definite matrix, given as such or by its diagonal.
-pub(super) fn definite(field: &Spanned<Vec<Entry>>, source: &Source) -> Result<Matrix, SceneError> {
-    matrix(field.get_ref())
-        .and_then(symmetric)
-        .and_then(positive_definite)
-        .map_err(|what| source.wrong(field.span(), &what))
+/// A rotation as a quaternion of length 1, the identity if the key is missing.
+pub(super) fn attitude(
+    field: &Field<WordOr<RawRotation>>,
+    source: &Source,
+) -> Result<[f64; 4], SceneError> {
+    const ALIGNED: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+    let Some(field) = field else {
+        return Ok(ALIGNED);
+    };
+    match field.get_ref() {
+        WordOr::Word(word) if word == "aligned" => Ok(ALIGNED),
+        WordOr::Word(word) => Err(unknown_word(word, field.span(), source)),
+        WordOr::Value(RawRotation::Quaternion(values)) => {
+            unit(values).map_err(|what| source.wrong(field.span(), &what))
+        }
+        WordOr::Value(RawRotation::AxisAngle(raw)) => axis_angle(raw, field.span(), source),
+    }
 }
 
-/// The matrix with this diagonal.
-pub(super) fn diagonal([x, y, z]: [f64; 3]) -> Matrix {
-    [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]
+fn unknown_word(word: &str, span: Range<usize>, source: &Source) -> SceneError {
+    source.wrong(span, &format!("is {:?}", super::source::quote(word)))
 }
 
-fn finite<const N: usize>(values: &[f64]) -> Result<[f64; N], String> {
+fn unit(values: &[f64]) -> Result<[f64; 4], String> {
+    let quaternion: [f64; 4] = finite(values)?;
+    let length = length(&quaternion);
+    match (length - 1.0).abs() <= UNIT {
+        true => Ok(quaternion.map(|x| x / length)),
+        false => Err(format!("has length {length:?}")),
+    }
+}
+
+/// The quaternion of the rotation about an axis of any length.
+fn axis_angle(
+    raw: &RawAxisAngle,
+    table: Range<usize>,
+    source: &Source,
+) -> Result<[f64; 4], SceneError> {
+    let missing = |key| source.missing(table.clone(), key);
+    let axis_field = raw.axis.as_ref().ok_or_else(|| missing("axis"))?;
+    let angle_field = raw.angle.as_ref().ok_or_else(|| missing("angle"))?;
+    let axis: [f64; 3] = array(axis_field, source)?;
+    // Brought to size one first: squares overflow and underflow.
+    let largest = axis.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if largest == 0.0 {
+        return Err(source.wrong(axis_field.span(), "has length 0"));
+    }
+    let axis = axis.map(|x| x / largest);
+    let (sin, cos) = (0.5 * number(angle_field, f64::is_finite, source)?).sin_cos();
+    let [x, y, z] = axis.map(|x| x / length(&axis) * sin);
+    Ok([cos, x, y, z])
+}
+
+fn length(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn number(
+    field: &Spanned<f64>,
+    allowed: fn(f64) -> bool,
+    source: &Source,
+) -> Result<f64, SceneError> {
+    let value = *field.get_ref();
+    match value.is_finite() && allowed(value) {
+        true => Ok(value),
+        false => Err(source.wrong(field.span(), &format!("is {value:?}"))),
+    }
+}
+
+/// `N` finite numbers, or how the values are not that.
+pub(super) fn finite<const N: usize>(values: &[f64]) -> Result<[f64; N], String> {
     let array = <[f64; N]>::try_from(values).map_err(|_| elements(values.len()))?;
     match values.iter().position(|value| !value.is_finite()) {
         Some(index) => Err(format!("element {} is {:?}", index + 1, values[index])),
@@ -79,66 +133,10 @@ fn finite<const N: usize>(values: &[f64]) -> Result<[f64; N], String> {
     }
 }
 
-fn elements(count: usize) -> String {
+/// The wrong number of elements in words.
+pub(super) fn elements(count: usize) -> String {
     match count {
         1 => "has 1 element".to_owned(),
         _ => format!("has {count} elements"),
-    }
-}
-
-fn matrix(entries: &[Entry]) -> Result<Matrix, String> {
-    match entries {
-        [Entry::Number(x), Entry::Number(y), Entry::Number(z)] => {
-            let values = finite(&[*x, *y, *z])?;
-            match values.iter().position(|value| *value <= 0.0) {
-                Some(index) => Err(format!("element {} is {:?}", index + 1, values[index])),
-                None => Ok(diagonal(values)),
-            }
-        }
-        [Entry::Row(x), Entry::Row(y), Entry::Row(z)] => {
-            let row = |index: usize, row: &[f64]| {
-                finite(row).map_err(|what| format!("row {index} {what}"))
-            };
-            Ok([row(1, x)?, row(2, y)?, row(3, z)?])
-        }
-        [_, _, _] => Err("mixes numbers and rows".to_owned()),
-        _ => Err(elements(entries.len())),
-    }
-}
-
-/// The symmetric part of a matrix that is symmetric but for rounding.
-fn symmetric(matrix: Matrix) -> Result<Matrix, String> {
-    let largest = matrix.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let mut result = matrix;
-    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-        let (upper, lower) = (matrix[i][j], matrix[j][i]);
-        if (upper - lower).abs() > SYMMETRIC * largest {
-            let (i, j) = (i + 1, j + 1);
-            return Err(format!(
-                "not symmetric: row {i} has {upper:?} in column {j}, row {j} has {lower:?} in column {i}"
-            ));
-        }
-        // Halved before the sum, which could overflow.
-        let mean = 0.5 * upper + 0.5 * lower;
-        (result[i][j], result[j][i]) = (mean, mean);
-    }
-    Ok(result)
-}
-
-/// Checks that the pivots of the factorisation $L D L^T$ are > 0 beyond rounding.
-fn positive_definite(matrix: Matrix) -> Result<Matrix, String> {
-    let [[a, b, c], [_, d, e], [_, _, f]] = matrix;
-    let second = d - b / a * b;
-    let mixed = e - b / a * c;
-    let third = f - c / a * c - mixed / second * mixed;
-    let pivots = [(a, a), (second, d), (third, f)];
-    let too_small = |&(pivot, scale): &(f64, f64)| !(pivot.is_normal() && pivot > DEFINITE * scale);
-    match pivots.iter().position(too_small) {
-        Some(index) => Err(format!(
-            "not positive definite: pivot {} is {:?}",
-            index + 1,
-            pivots[index].0
-        )),
-        None => Ok(matrix),
     }
 }

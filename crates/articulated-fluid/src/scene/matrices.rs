@@ -1,0 +1,133 @@
+//! Symmetric matrices: positive definite, semidefinite, and inertias of rigid bodies.
+
+use toml::Spanned;
+
+use super::error::SceneError;
+use super::raw::Entry;
+use super::source::Source;
+use super::values::{elements, finite};
+
+/// Rows.
+pub(super) type Matrix = [[f64; 3]; 3];
+
+/// How far from symmetric a matrix may be, relative to its largest element.
+const SYMMETRIC: f64 = 1e-12;
+
+/// Below this multiple of the diagonal element a pivot is rounding.
+const DEFINITE: f64 = 8.0 * f64::EPSILON;
+
+/// How far below zero an eigenvalue may be, relative to the matrix.
+const SEMIDEFINITE: f64 = 1e-12;
+
+/// A symmetric positive definite matrix, given as such or by its diagonal.
+pub(super) fn definite(field: &Spanned<Vec<Entry>>, source: &Source) -> Result<Matrix, SceneError> {
+    matrix(field.get_ref(), |x| x > 0.0)
+        .and_then(symmetric)
+        .and_then(positive_definite)
+        .map_err(|what| source.wrong(field.span(), &what))
+}
+
+/// A symmetric positive semidefinite matrix, given as such or by its diagonal; zero if the key is missing.
+pub(super) fn semidefinite(
+    field: Option<&Spanned<Vec<Entry>>>,
+    source: &Source,
+) -> Result<Matrix, SceneError> {
+    let Some(field) = field else {
+        return Ok(diagonal([0.0; 3]));
+    };
+    let matrix = matrix(field.get_ref(), |x| x >= 0.0)
+        .and_then(symmetric)
+        .map_err(|what| source.wrong(field.span(), &what))?;
+    match is_semidefinite(matrix) {
+        true => Ok(matrix),
+        false => Err(source.wrong(field.span(), "not positive semidefinite")),
+    }
+}
+
+/// The matrix with this diagonal.
+pub(super) fn diagonal([x, y, z]: [f64; 3]) -> Matrix {
+    [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]
+}
+
+/// The sum, if it is finite and positive definite.
+pub(super) fn sum(a: Matrix, b: Matrix) -> Option<Matrix> {
+    let sum = [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[i][j] + b[i][j]));
+    positive_definite(sum).ok()
+}
+
+/// Whether no principal moment of this inertia exceeds the sum of the two others beyond rounding.
+pub(super) fn is_of_a_rigid_body(inertia: Matrix) -> bool {
+    let inertia = inertia.map(|row| row.map(|x| 0.25 * x));
+    let half_trace = 0.5 * (inertia[0][0] + inertia[1][1] + inertia[2][2]);
+    let at = |i: usize, j: usize| f64::from(i == j) * half_trace - inertia[i][j];
+    is_semidefinite([0, 1, 2].map(|i| [0, 1, 2].map(|j| at(i, j))))
+}
+
+fn matrix(entries: &[Entry], on_diagonal: fn(f64) -> bool) -> Result<Matrix, String> {
+    match entries {
+        [Entry::Number(x), Entry::Number(y), Entry::Number(z)] => {
+            let values = finite(&[*x, *y, *z])?;
+            match values.iter().position(|value| !on_diagonal(*value)) {
+                Some(index) => Err(format!("element {} is {:?}", index + 1, values[index])),
+                None => Ok(diagonal(values)),
+            }
+        }
+        [Entry::Row(x), Entry::Row(y), Entry::Row(z)] => {
+            let row = |index: usize, row: &[f64]| {
+                finite(row).map_err(|what| format!("row {index} {what}"))
+            };
+            Ok([row(1, x)?, row(2, y)?, row(3, z)?])
+        }
+        [_, _, _] => Err("mixes numbers and rows".to_owned()),
+        _ => Err(elements(entries.len())),
+    }
+}
+
+/// The symmetric part of a matrix that is symmetric but for rounding.
+fn symmetric(matrix: Matrix) -> Result<Matrix, String> {
+    let largest = largest(&matrix);
+    let mut result = matrix;
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        let (upper, lower) = (matrix[i][j], matrix[j][i]);
+        if (upper - lower).abs() > SYMMETRIC * largest {
+            let (i, j) = (i + 1, j + 1);
+            return Err(format!(
+                "not symmetric: row {i} has {upper:?} in column {j}, row {j} has {lower:?} in column {i}"
+            ));
+        }
+        // Halved before the sum, which could overflow.
+        let mean = 0.5 * upper + 0.5 * lower;
+        (result[i][j], result[j][i]) = (mean, mean);
+    }
+    Ok(result)
+}
+
+/// Checks that the pivots of the factorisation $L D L^T$ are > 0 beyond rounding.
+fn positive_definite(matrix: Matrix) -> Result<Matrix, String> {
+    let [[a, b, c], [_, d, e], [_, _, f]] = matrix;
+    let second = d - b / a * b;
+    let mixed = e - b / a * c;
+    let third = f - c / a * c - mixed / second * mixed;
+    let pivots = [(a, a), (second, d), (third, f)];
+    let too_small = |&(pivot, scale): &(f64, f64)| !(pivot.is_normal() && pivot > DEFINITE * scale);
+    match pivots.iter().position(too_small) {
+        Some(index) => Err(format!(
+            "not positive definite: pivot {} is {:?}",
+            index + 1,
+            pivots[index].0
+        )),
+        None => Ok(matrix),
+    }
+}
+
+/// By the pivots of the matrix shifted by what is allowed below zero: those of a singular one are rounding.
+fn is_semidefinite(matrix: Matrix) -> bool {
+    let largest = largest(&matrix);
+    let at = |i: usize, j: usize| matrix[i][j] / largest + f64::from(i == j) * SEMIDEFINITE;
+    let shifted = [0, 1, 2].map(|i| [0, 1, 2].map(|j| at(i, j)));
+    largest == 0.0 || positive_definite(shifted).is_ok()
+}
+
+fn largest(matrix: &Matrix) -> f64 {
+    matrix.iter().flatten().fold(0.0, |m, x| m.max(x.abs()))
+}
