@@ -39,6 +39,13 @@ fn every_scene_is_read_and_has_a_title() {
 }
 
 #[test]
+fn no_bodies_overlap() {
+    for (name, scene) in all() {
+        assert_eq!(scene.overlaps(), [], "{name}");
+    }
+}
+
+#[test]
 fn every_scene_has_a_model_and_an_initial_state() {
     for (name, scene) in all() {
         let (model, state, conserved) = start(&scene);
@@ -130,6 +137,25 @@ fn the_eel_floats_and_the_robot_sinks() {
     println!("the robot: {net} kg heavier than the water");
     assert!(net > 0.5 && net < 5.0);
     assert_eq!(robot.gravity, [0.0, 0.0, -9.81]);
+}
+
+/// The paper prints the points of the joints on the tails with the opposite sign.
+#[test]
+fn the_sign_slip_of_the_print_is_an_overlap() {
+    let mut fish = load("fish-chain.toml");
+    for joint in &mut fish.joints {
+        joint.at_child = joint.at_child.map(|x| -x);
+    }
+    let messages: Vec<String> = fish.overlaps().iter().map(ToString::to_string).collect();
+    for (message, tail) in messages.iter().zip(["tail-1", "tail-2"]) {
+        let expected = format!(
+            "bodies \"head\" and {tail:?} overlap by 9.7 m along the line of their centres; \
+             check the signs of the joint's points"
+        );
+        assert_eq!(*message, expected);
+    }
+    // The tails, whose centres lie in the head on either side of its centre, overlap as well.
+    assert_eq!(messages.len(), 3);
 }
 
 #[test]

@@ -17,6 +17,7 @@ mod forms;
 mod joints;
 mod keys;
 mod matrices;
+mod overlap;
 mod rates;
 mod raw;
 mod source;
@@ -26,6 +27,7 @@ use std::path::Path;
 
 pub use error::SceneError;
 pub use keys::{KEYS, Key, reference};
+pub use overlap::Overlap;
 
 use forms::Surroundings;
 use raw::{RawScene, RawStart};

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod joints;
+mod overlaps;
 mod random;
 mod start;
 mod text;

@@ -57,6 +57,7 @@ fn check_scene(scene: &Scene) -> Result<(), TestCaseError> {
         let (p, px, _) = state.mu;
         prop_assert!(p.vec3().is_finite() && px.vec3().is_finite());
     }
+    prop_assert!(scene.overlaps().iter().all(|overlap| overlap.depth > 0.0));
     Ok(())
 }
 

@@ -1,0 +1,191 @@
+//! The depth of overlaps against spheres, where it is exact, and against brute force.
+
+use articulated_fluid::Scene;
+use lie::{SO3, Vec3};
+use proptest::prelude::*;
+
+use crate::parse;
+
+type Shape = ([f64; 3], [f64; 4]);
+
+/// Two ellipsoids, the second at `centre` from the first.
+fn pair(a: Shape, b: Shape, centre: Vec3) -> Scene {
+    let body = |name: &str, (axes, attitude): Shape| {
+        format!("[[body]]\nname = '{name}'\nsemi_axes = {axes:?}\nattitude = {attitude:?}\n")
+    };
+    let at_parent = SO3::from_quaternion(a.1).inverse_rotate(centre).0;
+    parse(&format!(
+        "fluid.density = 1\n{}{}[[joint]]\nparent = 'a'\nchild = 'b'\nat_parent = {at_parent:?}\nat_child = [0, 0, 0]",
+        body("a", a),
+        body("b", b),
+    ))
+}
+
+fn depth(scene: &Scene) -> Option<f64> {
+    scene.overlaps().first().map(|overlap| overlap.depth)
+}
+
+const ALIGNED: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+
+#[test]
+fn spheres_overlap_by_the_sum_of_their_radii_less_the_distance() {
+    let centre = Vec3([2.0, -1.0, 2.0]) * (1.0 / 3.0);
+    for (a, b, distance) in [
+        (1.0, 2.0, 2.5),
+        (1.0, 2.0, 0.5),
+        (3e-9, 1e-9, 3.5e-9),
+        (1e6, 1.0, 1e6),
+    ] {
+        let scene = pair(([a; 3], ALIGNED), ([b; 3], ALIGNED), centre * distance);
+        let expected = a + b - distance;
+        let found = depth(&scene).expect("an overlap");
+        assert!(
+            (found - expected).abs() < 1e-14 * (a + b),
+            "{found} for {expected}"
+        );
+    }
+}
+
+#[test]
+fn what_touches_does_not_overlap() {
+    let (a, b) = (([3.0, 1.0, 2.0], ALIGNED), ([1.0, 2.0, 5.0], ALIGNED));
+    for (centre, expected) in [
+        (4.0, None),
+        (4.0 - 1e-10, None),
+        (5.0, None),
+        (4.0 - 1e-7, Some(1e-7)),
+    ] {
+        let found = depth(&pair(a, b, Vec3([centre, 0.0, 0.0])));
+        assert_eq!(found.is_some(), expected.is_some(), "{centre}");
+        assert!((found.unwrap_or(0.0) - expected.unwrap_or(0.0)).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn concentric_ellipsoids_overlap_by_their_smallest_semi_axes() {
+    let scene = pair(
+        ([3.0, 1.0, 2.0], ALIGNED),
+        ([9.0, 8.0, 7.0], ALIGNED),
+        Vec3::zero(),
+    );
+    assert_eq!(depth(&scene), Some(8.0));
+}
+
+#[test]
+fn an_overlap_names_its_bodies() {
+    let scene = pair(
+        ([3.0, 1.0, 2.0], ALIGNED),
+        ([1.0; 3], ALIGNED),
+        Vec3([0.0, 1.66, 0.0]),
+    );
+    let [overlap] = &scene.overlaps()[..] else {
+        panic!("one overlap");
+    };
+    assert_eq!(overlap.bodies, [0, 1]);
+    assert_eq!(
+        overlap.to_string(),
+        "bodies \"a\" and \"b\" overlap by 0.34 m along the line of their centres; \
+         check the signs of the joint's points"
+    );
+}
+
+/// Balls of radius 0.6 on a cubic grid of spacing 1 with `n` to the edge, in one chain: each overlaps its neighbours.
+#[test]
+fn thousands_of_bodies_are_swept() {
+    let n = 15;
+    let place = |i: usize| {
+        let at = [i / (n * n), i / n % n, i % n];
+        Vec3(at.map(|x| x as f64))
+    };
+    let mut text = "fluid.density = 1\n".to_owned();
+    for i in 0..n * n * n {
+        text += &format!("[[body]]\nname = 'b{i}'\nsemi_axes = [0.6, 0.6, 0.6]\n");
+    }
+    for i in 1..n * n * n {
+        let step = (place(i) - place(i - 1)).0;
+        text += &format!(
+            "[[joint]]\nparent = 'b{}'\nchild = 'b{i}'\nat_parent = {step:?}\nat_child = [0, 0, 0]\n",
+            i - 1
+        );
+    }
+    let scene = parse(&text);
+    let start = std::time::Instant::now();
+    let overlaps = scene.overlaps();
+    println!("{} bodies in {:?}", n * n * n, start.elapsed());
+    assert_eq!(overlaps.len(), 3 * n * n * (n - 1));
+    assert!(
+        overlaps
+            .iter()
+            .all(|overlap| (overlap.depth - 0.2).abs() < 1e-12)
+    );
+    assert!(overlaps.is_sorted_by_key(|overlap| overlap.bodies));
+}
+
+/// The support function: how far the ellipsoid extends in the direction `n`.
+fn extent((axes, attitude): Shape, n: Vec3) -> f64 {
+    let n = SO3::from_quaternion(attitude).inverse_rotate(n);
+    Vec3([0, 1, 2].map(|i| axes[i] * n[i])).norm()
+}
+
+/// By definition: convex bodies are apart at a distance $s$ along $u$ where a direction $n$ separates them,
+/// $s \, u \cdot n > h_A(n) + h_B(n)$; the smallest such $s$ over a grid of directions, refined about the best.
+fn touching_distance(a: Shape, b: Shape, u: Vec3) -> f64 {
+    let at = |theta: f64, phi: f64| {
+        let n = Vec3([
+            theta.sin() * phi.cos(),
+            theta.sin() * phi.sin(),
+            theta.cos(),
+        ]);
+        let along = u.dot(n);
+        match along > 0.0 {
+            true => (extent(a, n) + extent(b, n)) / along,
+            false => f64::INFINITY,
+        }
+    };
+    let (mut best, mut size) = ((f64::INFINITY, 0.0, 0.0), std::f64::consts::PI);
+    for cells in [60, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6] {
+        let (_, theta, phi) = best;
+        for i in -cells..=cells {
+            for j in -cells..=cells {
+                let step = size / f64::from(cells);
+                let (theta, phi) = (theta + step * f64::from(i), phi + step * f64::from(j));
+                let value = at(theta, phi);
+                if value < best.0 {
+                    best = (value, theta, phi);
+                }
+            }
+        }
+        size *= if cells == 60 { 0.1 } else { 0.4 };
+    }
+    best.0
+}
+
+fn shape() -> impl Strategy<Value = Shape> {
+    let axes = prop::array::uniform3(0.3..1.0_f64);
+    let attitude = prop::array::uniform4(-1.0..1.0_f64).prop_filter_map("too short", |q| {
+        let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        (length > 0.1).then(|| q.map(|x| x / length))
+    });
+    (axes, attitude)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn the_depth_is_that_of_brute_force(
+        a in shape(),
+        b in shape(),
+        u in prop::array::uniform3(-1.0..1.0_f64),
+        distance in 0.05..2.0_f64,
+    ) {
+        let u = Vec3(u);
+        prop_assume!(u.norm() > 0.1);
+        let u = u * (1.0 / u.norm());
+        let touching = touching_distance(a, b, u);
+        match depth(&pair(a, b, u * distance)) {
+            Some(depth) => prop_assert!((depth - (touching - distance)).abs() < 1e-6),
+            None => prop_assert!(distance > touching - 1e-6),
+        }
+    }
+}
