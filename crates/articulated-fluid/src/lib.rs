@@ -47,6 +47,7 @@ mod error;
 mod initial;
 mod mass;
 mod model;
+pub mod planar;
 pub mod scene;
 mod semidirect;
 mod weight;
