@@ -49,6 +49,7 @@ pub mod formulas {}
 mod initial;
 mod mass;
 mod model;
+pub mod planar;
 pub mod scene;
 mod semidirect;
 mod weight;

@@ -1,0 +1,293 @@
+//! The search for the plane of a motion: normals that it may have, and what violates them.
+
+use dvi::{ContinuousSystem, State};
+use lie::{LieGroup, Mat3, SO3, Vec3, VectorSpace};
+
+use super::plane::{first_and_rest, unit};
+use super::{NotPlanar, NotPlanarCause};
+use crate::elimination::{Momentum, Velocity, of};
+use crate::{ArticulatedBody, Configuration, Mass};
+
+/// Violations up to this are those of rounding.
+const ROUNDING: f64 = 1e-12;
+/// Sweeps of Jacobi's rotations: they converge quadratically.
+const SWEEPS: usize = 8;
+
+/// A normal that was found.
+pub(super) struct Found {
+    pub(super) normal: Vec3,
+    /// The size of the bodies, m.
+    pub(super) length: f64,
+}
+
+/// How far a quantity is from what a plane asks of it, relative to the size of its kind.
+#[derive(Clone, Copy)]
+struct Violation {
+    what: NotPlanarCause,
+    body: usize,
+    defect: f64,
+}
+
+/// Of the normals that suggest themselves, the one with the fewest violations, and of those with the smallest.
+///
+/// By the number first: a normal that distributes one violation over all quantities would hide its cause.
+pub(super) fn normal<M: Mass>(
+    model: &ArticulatedBody<M>,
+    state: &State<Configuration>,
+) -> Result<Found, NotPlanar> {
+    let motion = Motion::new(model, state)?;
+    let judged = motion
+        .candidates()
+        .into_iter()
+        .map(|n| (n, motion.judge(n)));
+    let better = |a: &(usize, Violation), b: &(usize, Violation)| {
+        (a.0, a.1.defect).partial_cmp(&(b.0, b.1.defect))
+    };
+    let best = judged.reduce(|a, b| {
+        let replaces = better(&b.1, &a.1).is_some_and(|order| order.is_lt());
+        if replaces { b } else { a }
+    });
+    match best {
+        Some((normal, (0, _))) => Ok(Found {
+            normal,
+            length: motion.length,
+        }),
+        Some((normal, (_, worst))) => Err(NotPlanar {
+            defect: worst.defect,
+            what: worst.what,
+            body: worst.body,
+            torque: motion.torque(normal),
+        }),
+        None => Err(not_a_state()),
+    }
+}
+
+fn not_a_state() -> NotPlanar {
+    NotPlanar {
+        defect: f64::INFINITY,
+        what: NotPlanarCause::State,
+        body: 0,
+        torque: f64::NAN,
+    }
+}
+
+/// A model in motion.
+struct Motion<'a, M> {
+    model: &'a ArticulatedBody<M>,
+    state: &'a State<Configuration>,
+    xi: Velocity,
+    tau: Momentum,
+    /// The longest lever or radius of gyration, m.
+    length: f64,
+    /// The largest velocity, of the first body or of turning at that length, m/s.
+    speed: f64,
+}
+
+impl<'a, M: Mass> Motion<'a, M> {
+    fn new(
+        model: &'a ArticulatedBody<M>,
+        state: &'a State<Configuration>,
+    ) -> Result<Self, NotPlanar> {
+        let State { t, g, mu } = state;
+        if [g.2.len(), mu.2.len()] != [model.nodes.len() - 1; 2] {
+            return Err(not_a_state());
+        }
+        let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
+        let mut workspace = ContinuousSystem::workspace::<f64>(model, g);
+        model.velocity_and_force::<f64>(*t, g, mu, &mut workspace, &mut xi, &mut tau);
+        let sizes = xi.max_magnitude() + tau.max_magnitude() + mu.max_magnitude();
+        if !(g.is_finite() && sizes.is_finite()) {
+            return Err(not_a_state());
+        }
+        let length = length(model);
+        let rates = first_and_rest(&xi.0, &xi.2).map(|omega| omega.vec3().norm());
+        let speed = rates.fold(xi.1.vec3().norm(), |speed, rate| speed.max(length * rate));
+        Ok(Self {
+            model,
+            state,
+            xi,
+            tau,
+            length,
+            speed,
+        })
+    }
+
+    fn attitude(&self, i: usize) -> &SO3 {
+        of((&self.state.g.0, &self.state.g.2), i)
+    }
+
+    fn rate(&self, i: usize) -> Vec3 {
+        of((&self.xi.0, &self.xi.2), i).vec3()
+    }
+
+    /// Unit vectors that may be the normal, in the reference frame: the coordinate axes, the angular velocity of the fastest
+    /// body, what is normal to the levers and the velocity, and the principal axes of the bodies.
+    fn candidates(&self) -> Vec<Vec3> {
+        let bodies = 0..self.model.nodes.len();
+        let faster = |a: &usize, b: &usize| self.rate(*a).norm().total_cmp(&self.rate(*b).norm());
+        let fastest = bodies.clone().max_by(faster).unwrap_or(0);
+        let spin = self.attitude(fastest).rotate(self.rate(fastest));
+        let turned = |i: usize| {
+            let (mass, inertia) = (self.model.masses[i].matrix(), self.model.nodes[i].j);
+            let sum = mass * (1.0 / mass.trace()) + inertia * (1.0 / inertia.trace());
+            self.attitude(i).matrix().conjugate(sum)
+        };
+        let all = bodies.map(turned).fold(Mat3::zero(), |sum, a| sum + a);
+        let first = self.attitude(0).matrix().conjugate(self.model.nodes[0].j);
+        let [x, y, z] = Mat3::identity().0.map(Vec3);
+        let mut candidates = vec![z, y, x, spin, self.normal_to_levers()];
+        candidates.extend(principal_axes(all));
+        candidates.extend(principal_axes(first));
+        candidates.retain(|n| n.is_finite() && n.norm() > 0.0);
+        candidates.into_iter().map(unit).collect()
+    }
+
+    /// The cross product of two of the vectors that lie in the plane, or zero: the longest, and what is farthest from its line.
+    fn normal_to_levers(&self) -> Vec3 {
+        let nodes = self.model.nodes.iter().enumerate();
+        let points = nodes.flat_map(|(i, node)| {
+            let on = self.attitude(node.parent);
+            [
+                on.rotate(node.at_parent),
+                self.attitude(i).rotate(node.at_self),
+            ]
+        });
+        let velocity = self.xi.1.vec3() * (self.length / self.speed.max(f64::MIN_POSITIVE));
+        let vectors: Vec<Vec3> = points.chain([velocity]).collect();
+        let longer = |a: &Vec3, b: &Vec3| a.norm().total_cmp(&b.norm());
+        let longest = vectors.iter().copied().max_by(longer);
+        let across = |longest: Vec3| vectors.iter().map(move |x| longest.cross(*x));
+        let normal = longest.and_then(|longest| across(longest).max_by(longer));
+        normal.unwrap_or(Vec3::zero())
+    }
+
+    /// How many quantities violate the plane with this normal, and the worst of all.
+    fn judge(&self, n: Vec3) -> (usize, Violation) {
+        let none = Violation {
+            what: NotPlanarCause::State,
+            body: 0,
+            defect: 0.0,
+        };
+        self.violations(n).fold((0, none), |(count, worst), one| {
+            let violated = usize::from(one.defect > ROUNDING);
+            let worst = if one.defect > worst.defect {
+                one
+            } else {
+                worst
+            };
+            (count + violated, worst)
+        })
+    }
+
+    fn violations(&self, n: Vec3) -> impl Iterator<Item = Violation> {
+        let bodies = 0..self.model.nodes.len();
+        let of_bodies = bodies.flat_map(move |i| self.violations_of(i, n));
+        let velocity = Violation {
+            what: NotPlanarCause::VelocityOffPlane,
+            body: 0,
+            defect: ratio(n.dot(self.xi.1.vec3()), self.speed),
+        };
+        let force = self
+            .model
+            .weight
+            .as_ref()
+            .map_or(Vec3::zero(), |w| w.force());
+        let weight = Violation {
+            what: NotPlanarCause::GravityOffPlane,
+            body: 0,
+            defect: ratio(n.dot(force), force.norm()),
+        };
+        of_bodies.chain([velocity, weight])
+    }
+
+    fn violations_of(&self, i: usize, n: Vec3) -> impl Iterator<Item = Violation> {
+        let node = &self.model.nodes[i];
+        let (normal, on) = (
+            self.attitude(i).inverse_rotate(n),
+            self.attitude(node.parent).inverse_rotate(n),
+        );
+        let coupling = |a: Mat3| ratio(normal.cross(a * normal).norm(), a.frobenius());
+        let spin = self.length * self.rate(i).cross(normal).norm();
+        let violation = |what, body, defect| Violation { what, body, defect };
+        use NotPlanarCause::*;
+        [
+            violation(MassCoupling, i, coupling(self.model.masses[i].matrix())),
+            violation(InertiaCoupling, i, coupling(node.j)),
+            violation(
+                JointOffPlane,
+                i,
+                ratio(normal.dot(node.at_self), self.length),
+            ),
+            violation(
+                JointOffPlane,
+                node.parent,
+                ratio(on.dot(node.at_parent), self.length),
+            ),
+            violation(SpinOffPlane, i, ratio(spin, self.speed)),
+            violation(GravityOffPlane, i, self.gravity_off_plane(i, n)),
+        ]
+        .into_iter()
+    }
+
+    /// What gravity along the normal adds to the torque on body `i`, relative to the torque's size at any angle.
+    ///
+    /// Half a turn about the normal reverses the torque but for that.
+    fn gravity_off_plane(&self, i: usize, n: Vec3) -> f64 {
+        let Some(weight) = &self.model.weight else {
+            return 0.0;
+        };
+        let r = self.attitude(i);
+        let normal = r.inverse_rotate(n);
+        let turned = |angle: f64| SO3::exp(&(n * angle).into()).compose(r);
+        let [start, quarter, half] =
+            [0.0, 0.5, 1.0].map(|turns| weight.torque(i, &turned(turns * core::f64::consts::PI)));
+        let off = 0.5 * (start + half).norm();
+        let in_plane = normal.dot(start).hypot(normal.dot(quarter));
+        ratio(off, in_plane.hypot(off))
+    }
+
+    /// The largest part of a $\dot p_i$ perpendicular to the normal, N m.
+    fn torque(&self, n: Vec3) -> f64 {
+        let transport = Configuration::coadjoint_bracket(&self.xi, &self.state.mu);
+        let rates = first_and_rest(&transport.0, &transport.2)
+            .zip(first_and_rest(&self.tau.0, &self.tau.2))
+            .enumerate();
+        let off = rates.map(|(i, (transport, tau))| {
+            let normal = self.attitude(i).inverse_rotate(n);
+            (transport.vec3() + tau.vec3()).cross(normal).norm()
+        });
+        off.fold(0.0, f64::max)
+    }
+}
+
+/// The longest lever or radius of gyration, m.
+fn length<M: Mass>(model: &ArticulatedBody<M>) -> f64 {
+    let bodies = model.nodes.iter().zip(&model.masses);
+    let sizes = bodies.flat_map(|(node, mass)| {
+        let gyration = (node.j.trace() / mass.matrix().trace()).sqrt();
+        [node.at_parent.norm(), node.at_self.norm(), gyration]
+    });
+    sizes.fold(0.0, f64::max)
+}
+
+/// The size of a part relative to a whole; none of nothing.
+fn ratio(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part.abs() / whole }
+}
+
+/// The eigenvectors of a symmetric matrix, by Jacobi's rotations.
+fn principal_axes(mut a: Mat3) -> [Vec3; 3] {
+    let mut axes = Mat3::identity();
+    for (p, q) in [(0, 1), (0, 2), (1, 2)].repeat(SWEEPS) {
+        if a[(p, q)] == 0.0 {
+            continue;
+        }
+        let angle = 0.5 * (2.0 * a[(p, q)] / (a[(q, q)] - a[(p, p)])).atan();
+        let (sin, cos) = angle.sin_cos();
+        let mut turn = Mat3::identity();
+        (turn[(p, p)], turn[(p, q)]) = (cos, -sin);
+        (turn[(q, p)], turn[(q, q)]) = (sin, cos);
+        (a, axes) = (turn.conjugate(a), turn * axes);
+    }
+    axes.0.map(Vec3)
+}

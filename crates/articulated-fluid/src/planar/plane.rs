@@ -1,0 +1,295 @@
+//! The plane of a motion: states in space to states in the plane, and back.
+
+use dvi::State;
+use lie::{Cotangent, LieGroup, Mat3, Power, Rn, SO2, SO3, Vec3};
+
+use super::vector::{Sym2, Vec2};
+use super::weight::Weight;
+use super::{Node, NotPlanar, PlanarBody, PlanarConfiguration, find};
+use crate::elimination::of;
+use crate::{ArticulatedBody, Configuration, Mass};
+
+/// Relative departures from the plane of states that are still [of it](Plane::contains).
+const TOLERANCE: f64 = 1e-9;
+
+/// The mirror plane of a model and its motion, with the model in it.
+///
+/// $W = [e_1\ e_2\ n]$ is the frame of the plane in space, $N_i = [u_i\ v_i\ n_i]$ in that of body $i$: the attitude in space is
+/// $R_i = W \operatorname{rot}(\theta_i) N_i^T$, with $\operatorname{rot}(\theta)$ about the third axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    model: PlanarBody,
+    /// $W$.
+    world: Frame,
+    /// $N_i$.
+    bodies: Vec<Frame>,
+    /// $n \cdot x$, m.
+    offset: f64,
+    /// The size of the bodies, m.
+    length: f64,
+}
+
+/// A right-handed orthonormal frame whose third axis is the normal of a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Frame {
+    first: Vec3,
+    second: Vec3,
+    normal: Vec3,
+}
+
+impl Frame {
+    /// The frame with this normal, its first axis near a coordinate axis.
+    fn with_normal(normal: Vec3) -> Self {
+        let normal = unit(normal);
+        let alignment = |k: &usize| normal[*k].abs();
+        let most = (0..3).min_by(|a, b| alignment(a).total_cmp(&alignment(b)));
+        let mut axis = Vec3::zero();
+        axis[most.unwrap_or(0)] = 1.0;
+        let first = unit(axis - normal * normal.dot(axis));
+        Self {
+            first,
+            second: normal.cross(first),
+            normal,
+        }
+    }
+
+    /// The coordinates in the plane.
+    fn project(&self, x: Vec3) -> Vec2 {
+        Vec2([self.first.dot(x), self.second.dot(x)])
+    }
+
+    fn lift(&self, Vec2([x, y]): Vec2) -> Vec3 {
+        self.first * x + self.second * y
+    }
+
+    /// The block of a symmetric matrix in the plane.
+    fn block(&self, a: Mat3) -> Sym2 {
+        let (first, second) = (a * self.first, a * self.second);
+        Sym2([
+            self.first.dot(first),
+            self.first.dot(second),
+            self.second.dot(second),
+        ])
+    }
+
+    /// The angle of $W^T R N$, with `self` as $W$, as a rotation; of a rotation that does not keep the plane, the nearest.
+    fn angle_of(&self, r: &SO3, body: &Self) -> SO2 {
+        let (u, v) = (r.rotate(body.first), r.rotate(body.second));
+        let cos = self.first.dot(u) + self.second.dot(v);
+        let sin = self.second.dot(u) - self.first.dot(v);
+        let length = cos.hypot(sin);
+        if length == 0.0 {
+            return SO2::identity();
+        }
+        SO2::from_cos_sin_unchecked(cos / length, sin / length)
+    }
+
+    /// $W \operatorname{rot}(\theta) N^T$ with `self` as $W$.
+    fn attitude(&self, r: &SO2, body: &Self) -> SO3 {
+        let mut r = *r;
+        r.normalize();
+        let (along, across) = (
+            self.lift(Vec2(r.rotate([1.0, 0.0]))),
+            self.lift(Vec2(r.rotate([0.0, 1.0]))),
+        );
+        let columns = [
+            (along, body.first),
+            (across, body.second),
+            (self.normal, body.normal),
+        ];
+        let outer = columns.map(|(to, from)| to.outer(from));
+        SO3::from_matrix_unchecked(outer[0] + outer[1] + outer[2])
+    }
+}
+
+/// $x / |x|$.
+pub(super) fn unit(x: Vec3) -> Vec3 {
+    x * (1.0 / x.norm())
+}
+
+impl Plane {
+    /// The plane that is a mirror of the model and of the motion from this state, to rounding.
+    ///
+    /// The normal is a principal direction of each body's mass and inertia, the joints, the velocity and the gravity lie in
+    /// the plane, and the bodies spin about the normal.
+    ///
+    /// # Errors
+    /// [`NotPlanar`], with what violates the best plane, and by how much.
+    pub fn find<M: Mass>(
+        model: &ArticulatedBody<M>,
+        state: &State<Configuration>,
+    ) -> Result<Self, NotPlanar> {
+        let found = find::normal(model, state)?;
+        let world = Frame::with_normal(found.normal);
+        let body = |i: usize| {
+            let r = of((&state.g.0, &state.g.2), i);
+            Frame::with_normal(r.inverse_rotate(world.normal))
+        };
+        let bodies: Vec<Frame> = (0..model.nodes.len()).map(body).collect();
+        let mut plane = Self {
+            model: PlanarBody {
+                nodes: nodes(model, &bodies),
+                weight: None,
+                keeps_translation: model.keeps_translation,
+            },
+            world,
+            bodies,
+            offset: world.normal.dot(state.g.1.vec3()),
+            length: found.length,
+        };
+        plane.model.weight = plane.weight(model);
+        Ok(plane)
+    }
+
+    /// The model in the plane.
+    pub fn model(&self) -> PlanarBody {
+        self.model.clone()
+    }
+
+    /// The plane's normal, in the reference frame.
+    pub fn normal(&self) -> Vec3 {
+        self.world.normal
+    }
+
+    /// The state in the plane; of a state that is [not of the plane](Self::contains), the nearest.
+    pub fn project(&self, state: &State<Configuration>) -> State<PlanarConfiguration> {
+        let mut planar = self.origin();
+        self.project_into(state, &mut planar);
+        planar
+    }
+
+    /// [`project`](Self::project) into a state of the same number of bodies.
+    pub fn project_into(
+        &self,
+        state: &State<Configuration>,
+        planar: &mut State<PlanarConfiguration>,
+    ) {
+        let State { t, g, mu } = state;
+        planar.t = *t;
+        planar.g.1.0 = self.world.project(g.1.vec3()).0;
+        planar.mu.1.0 = self.world.project(mu.1.vec3()).0;
+        let (r, p) = (first_and_rest(&g.0, &g.2), first_and_rest(&mu.0, &mu.2));
+        let angles = (&mut planar.g.0, &mut planar.g.2[..]);
+        let momenta = (&mut planar.mu.0, &mut planar.mu.2[..]);
+        for ((body, r), angle) in self.bodies.iter().zip(r).zip(each(angles)) {
+            *angle = self.world.angle_of(r, body);
+        }
+        for ((body, p), momentum) in self.bodies.iter().zip(p).zip(each(momenta)) {
+            momentum[0] = body.normal.dot(p.vec3());
+        }
+    }
+
+    /// The state in space.
+    pub fn lift(&self, planar: &State<PlanarConfiguration>) -> State<Configuration> {
+        let tails = self.bodies.len() - 1;
+        let mut state = State {
+            t: planar.t,
+            g: (
+                SO3::identity(),
+                Rn::identity(),
+                Power::new(vec![SO3::identity(); tails]),
+            ),
+            mu: (
+                Cotangent::zero(),
+                Cotangent::zero(),
+                Power::new(vec![Cotangent::zero(); tails]),
+            ),
+        };
+        self.lift_into(planar, &mut state);
+        state
+    }
+
+    /// [`lift`](Self::lift) into a state of the same number of bodies.
+    pub fn lift_into(&self, planar: &State<PlanarConfiguration>, state: &mut State<Configuration>) {
+        let State { t, g, mu } = planar;
+        state.t = *t;
+        let x = self.world.lift(Vec2(g.1.0)) + self.world.normal * self.offset;
+        state.g.1 = x.into();
+        state.mu.1 = self.world.lift(Vec2(mu.1.0)).into();
+        let (r, p) = (first_and_rest(&g.0, &g.2), first_and_rest(&mu.0, &mu.2));
+        let attitudes = (&mut state.g.0, &mut state.g.2[..]);
+        let momenta = (&mut state.mu.0, &mut state.mu.2[..]);
+        for ((body, r), attitude) in self.bodies.iter().zip(r).zip(each(attitudes)) {
+            *attitude = self.world.attitude(r, body);
+        }
+        for ((body, p), momentum) in self.bodies.iter().zip(p).zip(each(momenta)) {
+            *momentum = (body.normal * p[0]).into();
+        }
+    }
+
+    /// Whether a state is one of this plane: of as many bodies, and out of the plane by at most 1e-9 of the sizes of its
+    /// position and its momenta.
+    pub fn contains(&self, state: &State<Configuration>) -> bool {
+        let ((r0, x, r), (p0, px, p)) = (&state.g, &state.mu);
+        let (normal, x, px) = (self.world.normal, x.vec3(), px.vec3());
+        if [r.len(), p.len()] != [self.bodies.len() - 1; 2] {
+            return false;
+        }
+        let spins = || first_and_rest(p0, p).map(|p| p.vec3());
+        let spin = spins().fold(self.length * px.norm(), |size, p| size.max(p.norm()));
+        let turned = |(body, r): (&Frame, &SO3)| (r.rotate(body.normal) - normal).norm();
+        let off_axis = |(body, p): (&Frame, Vec3)| p.cross(body.normal).norm();
+        let within = |part: f64, size: f64| part <= TOLERANCE * size;
+        let mut bodies = self.bodies.iter().zip(first_and_rest(r0, r));
+        let mut momenta = self.bodies.iter().zip(spins());
+        within(
+            (normal.dot(x) - self.offset).abs(),
+            x.norm().max(self.length),
+        ) && within(self.length * normal.dot(px).abs(), spin)
+            && bodies.all(|pair| within(turned(pair), 1.0))
+            && momenta.all(|pair| within(off_axis(pair), spin))
+    }
+
+    /// All angles zero, at rest at the origin.
+    pub(super) fn origin(&self) -> State<PlanarConfiguration> {
+        let tails = self.bodies.len() - 1;
+        let g = (
+            SO2::identity(),
+            Rn::identity(),
+            Power::new(vec![SO2::identity(); tails]),
+        );
+        let mu = g.zero_dual();
+        State { t: 0.0, g, mu }
+    }
+
+    /// $a_i$ and $b_i$ from the torques at the angles $\pi/2$ and 0.
+    fn weight<M: Mass>(&self, model: &ArticulatedBody<M>) -> Option<Weight> {
+        let weight = model.weight.as_ref()?;
+        let torque = |i: usize, angle: SO2| {
+            let (body, n) = (&self.bodies[i], self.bodies[i].normal);
+            n.dot(weight.torque(i, &self.world.attitude(&angle, body)))
+        };
+        let (across, along) = (SO2::from_cos_sin_unchecked(0.0, 1.0), SO2::identity());
+        let lever = |i: usize| Vec2([-torque(i, across), torque(i, along)]);
+        Some(Weight {
+            total: self.world.project(weight.force()),
+            levers: (0..self.bodies.len()).map(lever).collect(),
+        })
+    }
+}
+
+/// The bodies in their frames' planes.
+fn nodes<M: Mass>(model: &ArticulatedBody<M>, frames: &[Frame]) -> Vec<Node> {
+    let bodies = model.nodes.iter().zip(&model.masses).zip(frames);
+    let planar = bodies.map(|((node, mass), frame)| {
+        let on = &frames[node.parent];
+        let j = frame.normal.dot(node.j * frame.normal);
+        let points = [
+            on.project(node.at_parent),
+            frame.project(node.at_self),
+            on.project(node.lever),
+        ];
+        Node::new(node.parent, frame.block(mass.matrix()), j, points)
+    });
+    planar.collect()
+}
+
+/// What is each body's, where the first body's is apart.
+pub(super) fn first_and_rest<'a, T>(first: &'a T, rest: &'a [T]) -> impl Iterator<Item = &'a T> {
+    core::iter::once(first).chain(rest)
+}
+
+/// The same, to be changed.
+fn each<'a, T>((first, rest): (&'a mut T, &'a mut [T])) -> impl Iterator<Item = &'a mut T> {
+    core::iter::once(first).chain(rest)
+}
