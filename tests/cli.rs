@@ -690,3 +690,136 @@ fn an_interrupted_run_leaves_nothing() {
         assert_eq!(files(directory.path()), [""; 0]);
     }
 }
+
+/// A scene of the collection, by its name.
+fn shipped(name: &str) -> String {
+    format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn inspect_tells_the_smallest_exact_model_and_why() {
+    let directory = directory();
+    let expected = [
+        (
+            "fish-chain",
+            "SO(3) x R^3 x SO(3)^2",
+            [12, 9],
+            "translation weight",
+        ),
+        (
+            "one-ellipsoid",
+            "SO(3) x R^3",
+            [6, 3],
+            "translation joints weight",
+        ),
+        (
+            "eel",
+            "SO(3) x R^3 x SO(3)^29",
+            [93, 90],
+            "translation weight",
+        ),
+        (
+            "branching-robot",
+            "SO(3) x R^3 x SO(3)^10",
+            [36, 33],
+            "translation",
+        ),
+        (
+            "dry-chain",
+            "SO(3) x R^3 x SO(3)^2",
+            [12, 9],
+            "translation weight fluid",
+        ),
+        (
+            "planar-fish",
+            "SO(2) x R^2 x SO(2)^2",
+            [5, 3],
+            "translation weight plane",
+        ),
+    ];
+    for (name, group, [dimension, unknowns], reductions) in expected {
+        let told = json(directory.path(), &["inspect", &shipped(name), "--json"]);
+        assert_eq!(told["group"], group, "{name}");
+        assert_eq!(told["dimension"], dimension, "{name}");
+        assert_eq!(told["unknowns"], unknowns, "{name}");
+        assert_eq!(told["overlaps"], Value::Array(vec![]), "{name}");
+        let all = told["reductions"].as_array().unwrap();
+        let taken = all.iter().filter(|reduction| reduction["taken"] == true);
+        let taken: Vec<_> = taken
+            .map(|reduction| reduction["name"].as_str().unwrap())
+            .collect();
+        assert_eq!(taken.join(" "), reductions, "{name}");
+        assert!(
+            all.iter()
+                .all(|reduction| !reduction["why"].as_str().unwrap().is_empty())
+        );
+    }
+}
+
+#[test]
+fn a_reduction_that_would_be_approximate_is_refused_with_its_defect() {
+    let directory = directory();
+    let scene = fs::read_to_string(shipped("planar-fish")).unwrap();
+    let tilted = scene.replace("joint_rate = [0, 0, 1.5]", "joint_rate = [0, 1.5e-3, 1.5]");
+    assert_ne!(tilted, scene);
+    fs::write(directory.path().join("s.toml"), tilted).unwrap();
+    let output = lgvi(directory.path(), &["inspect", "s.toml"]);
+    let told = text(&output.stdout);
+    assert!(told.contains("unknowns of a step  9 of 12"), "{told}");
+    for word in [
+        "no motion in a plane",
+        "the angular velocity",
+        "1.0e-3",
+        "N m",
+    ] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+}
+
+#[test]
+fn the_motion_is_the_same_without_reductions() {
+    let directory = directory();
+    for name in ["fish-chain", "one-ellipsoid", "dry-chain", "planar-fish"] {
+        let scene = shipped(name);
+        let run = |out: &str, more: &[&str]| {
+            let args = [
+                "run", &scene, "--until", "10", "--every", "1000", "--out", out,
+            ];
+            let summary = json(directory.path(), &[&args, more, &["--json"]].concat());
+            let (_, rows) = table(&directory.path().join(out));
+            (summary, numbers(rows.last().unwrap()))
+        };
+        let (reduced, full) = (run("reduced.csv", &[]), run("full.csv", &["--full"]));
+        assert!(
+            reduced.0["unknowns"].as_u64() < full.0["unknowns"].as_u64(),
+            "{name}"
+        );
+        // What two forms of one method differ by after 10 s.
+        for (a, b) in reduced.1.iter().zip(&full.1) {
+            assert!((a - b).abs() < 1e-9, "{name}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn bodies_in_one_place_are_warned_of() {
+    let directory = directory();
+    // The sign of the tails' joints as the paper prints it.
+    let slipped = SCENE
+        .replace("at_child = [-5.5, 0, 0]", "at_child = [5.5, 0, 0]")
+        .replace(
+            "at_parent = [-8.8, 0, 0]\nat_child = [5.5, 0, 0]",
+            "at_parent = [-8.8, 0, 0]\nat_child = [-5.5, 0, 0]",
+        );
+    fs::write(directory.path().join("s.toml"), slipped).unwrap();
+    for args in [
+        &["run", "s.toml", "--until", "0.1"][..],
+        &["inspect", "s.toml"],
+    ] {
+        let output = lgvi(directory.path(), args);
+        let warnings = text(&output.stderr);
+        assert!(output.status.success(), "{warnings}");
+        let first = r#"warning: bodies "head" and "tail-1" overlap by 9.7 m"#;
+        assert!(warnings.starts_with(first), "{warnings}");
+    }
+}

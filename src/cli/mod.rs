@@ -3,6 +3,7 @@
 mod args;
 mod clock;
 mod error;
+mod inspect;
 mod interrupt;
 mod methods;
 mod output;
@@ -26,6 +27,7 @@ Examples:
   lgvi run --until 10 --out fish.csv    10 s of it, with the trajectory
   lgvi run boat.toml --step 0.01        a scene of one's own
   lgvi run --method gauss-4             another integrator, at its own default step
+  lgvi inspect boat.toml                what it is modelled with, and why
   lgvi methods                          the integrators: orders, steps, costs
   lgvi run --help                       options, CSV columns, keys of a scene";
 
@@ -43,6 +45,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Inspect(inspect::Args),
     Methods(methods::Args),
 }
 
@@ -50,6 +53,7 @@ impl Command {
     fn execute(&self) -> Result<(), CliError> {
         match self {
             Self::Run(args) => run::execute(args),
+            Self::Inspect(args) => inspect::execute(args),
             Self::Methods(args) => methods::execute(args),
         }
     }

@@ -1,5 +1,6 @@
 //! Text to the terminal, where a reader may have gone.
 
+use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
 
 use serde::Serialize;
@@ -18,6 +19,16 @@ pub fn stdout(text: &str) -> Result<(), CliError> {
 /// Writes an error to stderr, if it can be written.
 pub fn error(error: &CliError) {
     let _ = writeln!(io::stderr(), "error: {error}");
+}
+
+/// Writes what a user had better know to stderr, if it can be written.
+pub fn warning(what: &impl Display) {
+    let _ = writeln!(io::stderr(), "warning: {what}");
+}
+
+/// Names are the user's own, and may hold what breaks lines.
+pub fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
 }
 
 /// A number with all its digits, and with an exponent where there would be many zeros.

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use articulated_fluid::{ArticulatedBody, Configuration, scene};
+use articulated_fluid::{ArticulatedBody, Configuration, SmallestModel, scene};
 use dvi::{Integrator, State, StepReport};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 use study::methods::Method;
@@ -53,6 +53,9 @@ pub struct Args {
     /// Seconds between samples, whatever the step; those inside a step are computed by a shorter step of the method, not interpolated
     #[arg(long, value_name = "SECONDS", value_parser = args::seconds, allow_hyphen_values = true, conflicts_with = "every")]
     every_seconds: Option<f64>,
+    /// Take no reduction: all coordinates are unknowns and all terms are computed; see `lgvi inspect`
+    #[arg(long)]
+    full: bool,
     /// Print the summary as one JSON object
     #[arg(long)]
     json: bool,
@@ -85,6 +88,7 @@ Examples:
   lgvi run                                       the built-in scene for 100 s
   lgvi run --until 10 --out fish.csv             10 s of it, a row every 10 ms
   lgvi run boat.toml --step 0.01 --every 1       a scene of one's own, a row for each step
+  lgvi run scenes/planar-fish.toml --full        the same motion without reductions, to compare
   lgvi run --method gauss-4 --every-seconds 0.04 --out film.csv
                                                  order 8 in long steps, 25 rows a second
   lgvi run --json | jq .energy_error_max_relative
@@ -107,12 +111,17 @@ Exit codes:
 /// Simulates the scene and prints the summary.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(args.scene.as_deref())?;
+    loaded.overlaps.iter().for_each(print::warning);
     let clock = Clock::new(args.until, args.step())?;
     args.schedule().check(&clock)?;
     // Before there is a file that an early signal would leave behind.
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
     let table = open(args, &loaded)?;
-    let mut integrator = args.method.integrator(loaded.model.clone());
+    let model = match args.full {
+        true => SmallestModel::Fluid(loaded.model.clone().keep_translation()),
+        false => loaded.smallest.model.clone(),
+    };
+    let mut integrator = args.method.integrator_of_smallest(model);
     let mut run = Run::new(args, clock, &loaded, table, interrupt)?;
     run.simulate(&mut *integrator)?;
     let summary = run.summary(args, &loaded);
@@ -277,6 +286,7 @@ impl<'a> Run<'a> {
     fn summary(&self, args: &Args, loaded: &Loaded) -> Summary {
         let (clock, solver, watch) = (&self.clock, &self.solver, &self.watch);
         let (method, steps) = (args.method, clock.steps as f64);
+        let account = &loaded.smallest.account;
         let iterations = solver.iterations as f64 / steps;
         let (every_steps, every_seconds) = match self.schedule {
             Schedule::Steps(steps) => (Some(steps), None),
@@ -286,6 +296,14 @@ impl<'a> Run<'a> {
             title: loaded.scene.title.clone(),
             scene: loaded.file.clone(),
             bodies: loaded.scene.bodies.len(),
+            group: match args.full {
+                true => account.full_group.clone(),
+                false => account.group.clone(),
+            },
+            unknowns: match args.full {
+                true => account.full_dimension,
+                false => account.unknowns,
+            },
             method: method.name(),
             method_description: method.description(),
             method_order: method.order(),

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use articulated_fluid::{ArticulatedBody, Configuration, ModelError, Scene};
+use articulated_fluid::scene::Overlap;
+use articulated_fluid::{ArticulatedBody, Configuration, ModelError, Scene, Smallest};
 use dvi::State;
 
 use super::error::CliError;
@@ -10,13 +11,17 @@ use super::error::CliError;
 const BUILT_IN: &str = include_str!("../../scenes/fish-chain.toml");
 const BUILT_IN_NAME: &str = "fish-chain.toml (built in)";
 
-/// A scene with its model and the state at t = 0.
+/// A scene with its models and the state at t = 0.
 pub struct Loaded {
     /// Where it is from.
     pub file: String,
     pub scene: Scene,
+    /// Of the whole, whatever is integrated.
     pub model: ArticulatedBody,
+    pub smallest: Smallest,
     pub start: State<Configuration>,
+    /// Bodies that share a place at the start.
+    pub overlaps: Vec<Overlap>,
 }
 
 /// Loads the scene in the file `path`, or the one that is built in.
@@ -28,17 +33,16 @@ pub fn load(path: Option<&Path>) -> Result<Loaded, CliError> {
             BUILT_IN_NAME.to_owned(),
         ),
     };
-    match model_and_start(&scene) {
-        Ok((model, start)) => Ok(Loaded {
-            file,
-            scene,
-            model,
-            start,
-        }),
-        Err(source) => Err(CliError::Model { file, source }),
-    }
+    modelled(scene, file.clone()).map_err(|source| CliError::Model { file, source })
 }
 
-fn model_and_start(scene: &Scene) -> Result<(ArticulatedBody, State<Configuration>), ModelError> {
-    Ok((scene.model()?, scene.initial_state()?))
+fn modelled(scene: Scene, file: String) -> Result<Loaded, ModelError> {
+    Ok(Loaded {
+        model: scene.model()?,
+        smallest: scene.smallest()?,
+        start: scene.initial_state()?,
+        overlaps: scene.overlaps(),
+        file,
+        scene,
+    })
 }

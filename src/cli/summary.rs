@@ -4,7 +4,7 @@ use serde::Serialize;
 use study::methods::Family;
 
 use super::error::CliError;
-use super::print::{self, decimal};
+use super::print::{self, decimal, one_line};
 
 /// The result of a run; units are in the names, or SI.
 #[derive(Clone, Debug, Serialize)]
@@ -12,6 +12,8 @@ pub struct Summary {
     pub title: Option<String>,
     pub scene: String,
     pub bodies: usize,
+    pub group: String,
+    pub unknowns: usize,
     pub method: &'static str,
     pub method_description: String,
     pub method_order: u32,
@@ -69,6 +71,10 @@ impl Summary {
         rows.extend([
             ("file", one_line(&self.scene)),
             ("bodies", self.bodies.to_string()),
+            (
+                "model",
+                format!("{}, {} unknowns a step", self.group, self.unknowns),
+            ),
             ("method", self.method()),
             ("steps", self.steps.to_string()),
             ("step size", self.step()),
@@ -187,9 +193,4 @@ fn number(value: f64) -> String {
 /// A relative value, which is none where the start is zero.
 fn optional(value: Option<f64>) -> String {
     value.map_or_else(|| "undefined".to_owned(), number)
-}
-
-/// Names are the user's own, and may hold what breaks lines.
-fn one_line(text: &str) -> String {
-    text.replace(char::is_control, " ")
 }

@@ -101,7 +101,7 @@ impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
 
     /// (29)–(33) by recursion: displacements from the first body on, momenta back from the leaves.
     ///
-    /// $ h\,d_{f_i} = (J'_d F_i - F_i^T J'_d)^\vee - d_{ip} \times F_i^T (M_i B_i + S_i) + \sum_k d_{ik} \times F_i^T C_k G_k$ and
+    /// $ h\,d_{f_i} = (J^\prime_d F_i - F_i^T J^\prime_d)^\vee - d_{ip} \times F_i^T (M_i B_i + S_i) + \sum_k d_{ik} \times F_i^T C_k G_k$ and
     /// $ h\,d_{g_i} = M_i Y_i \times B_i + \sum_k E_i l_k \times C_k G_k$ with $G_i = M_i Y_i + S_i$, $S_i = \sum_k C_k G_k$.
     #[inline(always)]
     fn derivatives<S: Scalar>(

@@ -52,6 +52,7 @@ mod model;
 pub mod planar;
 pub mod scene;
 mod semidirect;
+mod smallest;
 mod weight;
 
 pub use conserved::Conserved;
@@ -62,3 +63,4 @@ pub use mass::Mass;
 pub use model::{ArticulatedBody, Body, Configuration, Joint};
 pub use scene::{Scene, SceneError};
 pub use semidirect::{OnSe3, SemidirectConfiguration};
+pub use smallest::{Account, Reduction, Smallest, SmallestModel};

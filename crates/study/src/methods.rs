@@ -13,9 +13,35 @@
 use core::fmt;
 use core::str::FromStr;
 
-use articulated_fluid::{ArticulatedBody, Configuration};
+use articulated_fluid::planar::{InPlane, PlanarBody, PlanarConfiguration};
+use articulated_fluid::{ArticulatedBody, Configuration, Mass, SmallestModel};
 use dvi::{Adjoint, Composition, Gauss, Integrator, Variational};
 use thiserror::Error;
+
+/// An integrator chosen at run time.
+pub type BoxedIntegrator<G> = Box<dyn Integrator<Group = G> + Send>;
+
+/// The integrator of a method for a model of any kind.
+macro_rules! integrator {
+    ($method:expr, $model:expr) => {
+        match $method {
+            Method::Lgvi => Box::new(Variational::with_inertia($model)),
+            Method::LgviAdjoint => Box::new(Variational::new(Adjoint($model))),
+            Method::Composition2 => Box::new(Composition::<_, 2>::new($model)),
+            Method::Composition4 => Box::new(Composition::<_, 4>::new($model)),
+            Method::Composition6 => Box::new(Composition::<_, 6>::new($model)),
+            Method::Composition8 => Box::new(Composition::<_, 8>::new($model)),
+            Method::Gauss1 => Box::new(Gauss::<_, 1>::new($model)),
+            Method::Gauss2 => Box::new(Gauss::<_, 2>::new($model)),
+            Method::Gauss3 => Box::new(Gauss::<_, 3>::new($model)),
+            Method::Gauss4 => Box::new(Gauss::<_, 4>::new($model)),
+            Method::Gauss5 => Box::new(Gauss::<_, 5>::new($model)),
+            Method::Gauss6 => Box::new(Gauss::<_, 6>::new($model)),
+            Method::Gauss7 => Box::new(Gauss::<_, 7>::new($model)),
+            Method::Gauss8 => Box::new(Gauss::<_, 8>::new($model)),
+        }
+    };
+}
 
 /// An integrator of [`ArticulatedBody`], chosen at run time.
 ///
@@ -287,26 +313,24 @@ impl Method {
         self.entry().evaluations_per_step
     }
 
-    /// The method for a model.
-    pub fn integrator(
-        self,
-        model: ArticulatedBody,
-    ) -> Box<dyn Integrator<Group = Configuration> + Send> {
-        match self {
-            Self::Lgvi => Box::new(Variational::with_inertia(model)),
-            Self::LgviAdjoint => Box::new(Variational::new(Adjoint(model))),
-            Self::Composition2 => Box::new(Composition::<_, 2>::new(model)),
-            Self::Composition4 => Box::new(Composition::<_, 4>::new(model)),
-            Self::Composition6 => Box::new(Composition::<_, 6>::new(model)),
-            Self::Composition8 => Box::new(Composition::<_, 8>::new(model)),
-            Self::Gauss1 => Box::new(Gauss::<_, 1>::new(model)),
-            Self::Gauss2 => Box::new(Gauss::<_, 2>::new(model)),
-            Self::Gauss3 => Box::new(Gauss::<_, 3>::new(model)),
-            Self::Gauss4 => Box::new(Gauss::<_, 4>::new(model)),
-            Self::Gauss5 => Box::new(Gauss::<_, 5>::new(model)),
-            Self::Gauss6 => Box::new(Gauss::<_, 6>::new(model)),
-            Self::Gauss7 => Box::new(Gauss::<_, 7>::new(model)),
-            Self::Gauss8 => Box::new(Gauss::<_, 8>::new(model)),
+    /// The method for a model in space.
+    pub fn integrator<M: Mass>(self, model: ArticulatedBody<M>) -> BoxedIntegrator<Configuration> {
+        integrator!(self, model)
+    }
+
+    /// The method for a model in a plane.
+    pub fn integrator_in_plane(self, model: PlanarBody) -> BoxedIntegrator<PlanarConfiguration> {
+        integrator!(self, model)
+    }
+
+    /// The method for the smallest exact model of a scene: it steps that, and gives the scene's own configuration.
+    pub fn integrator_of_smallest(self, model: SmallestModel) -> BoxedIntegrator<Configuration> {
+        match model {
+            SmallestModel::Fluid(model) => self.integrator(model),
+            SmallestModel::Dry(model) => self.integrator(model),
+            SmallestModel::Planar(model, plane) => {
+                Box::new(InPlane::new(plane, self.integrator_in_plane(model)))
+            }
         }
     }
 }

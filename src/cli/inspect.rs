@@ -1,0 +1,120 @@
+//! `lgvi inspect`: what a scene is modelled with.
+
+use std::path::PathBuf;
+
+use articulated_fluid::{Account, scene::Overlap};
+use serde::Serialize;
+
+use super::error::CliError;
+use super::print;
+use super::scene::load;
+
+/// Tell what a scene is modelled with, and why: the smallest exact model.
+///
+/// Each scene is described by the smallest group and the fewest terms that describe it exactly. What a scene does not have is
+/// not computed; what would hold only approximately is not left out, and the reason tells by how much it fails.
+#[derive(clap::Args)]
+#[command(after_long_help = AFTER_LONG_HELP)]
+pub struct Args {
+    /// The scene, a TOML file [default: three bodies, from Lee, Leok & McClamroch (2009)]
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+const AFTER_LONG_HELP: &str = "\
+Examples:
+  lgvi inspect
+  lgvi inspect scenes/planar-fish.toml
+  lgvi inspect boat.toml --json | jq -r '.reductions[] | select(.taken) | .name'
+
+Reductions:
+  translation   x leaves the unknowns: the linear momentum is constant
+  joints        one body alone has none
+  weight        no gravity, or every body neutrally buoyant
+  fluid         without one, or for spheres, masses are numbers instead of matrices
+  plane         a mirror plane keeps the motion in it: rotations in SO(2)
+lgvi run takes what is exact, and lgvi run --full takes none of it: the motion is the same.";
+
+/// What is told of a scene; units are in the names.
+#[derive(Serialize)]
+struct Inspection<'a> {
+    title: Option<&'a str>,
+    scene: &'a str,
+    bodies: usize,
+    #[serde(flatten)]
+    account: &'a Account,
+    overlaps: Vec<OverlapObject<'a>>,
+}
+
+#[derive(Serialize)]
+struct OverlapObject<'a> {
+    bodies: [&'a str; 2],
+    depth_metres: f64,
+}
+
+impl<'a> From<&'a Overlap> for OverlapObject<'a> {
+    fn from(overlap: &'a Overlap) -> Self {
+        let [a, b] = &overlap.names;
+        Self {
+            bodies: [a, b],
+            depth_metres: overlap.depth,
+        }
+    }
+}
+
+/// Prints the account of the scene.
+pub fn execute(args: &Args) -> Result<(), CliError> {
+    let loaded = load(args.scene.as_deref())?;
+    let (account, overlaps) = (&loaded.smallest.account, &loaded.overlaps);
+    overlaps.iter().for_each(print::warning);
+    let inspection = Inspection {
+        title: loaded.scene.title.as_deref(),
+        scene: &loaded.file,
+        bodies: loaded.scene.bodies.len(),
+        account,
+        overlaps: overlaps.iter().map(OverlapObject::from).collect(),
+    };
+    match args.json {
+        true => print::stdout(&print::json(&inspection)?),
+        false => print::stdout(&text(&inspection)),
+    }
+}
+
+fn text(inspection: &Inspection) -> String {
+    let account = inspection.account;
+    let head = [
+        [
+            "scene".to_owned(),
+            print::one_line(inspection.title.unwrap_or("untitled")),
+        ],
+        ["file".to_owned(), print::one_line(inspection.scene)],
+        ["bodies".to_owned(), inspection.bodies.to_string()],
+        [
+            "group".to_owned(),
+            format!("{}, dimension {}", account.group, account.dimension),
+        ],
+        [
+            "without reductions".to_owned(),
+            format!(
+                "{}, dimension {}",
+                account.full_group, account.full_dimension
+            ),
+        ],
+        [
+            "unknowns of a step".to_owned(),
+            format!("{} of {}", account.unknowns, account.full_dimension),
+        ],
+    ];
+    let lines = account.reductions.iter().flat_map(|reduction| {
+        let (name, taken) = (
+            reduction.name,
+            if reduction.taken { "taken" } else { "not" },
+        );
+        let drops = format!("leaves out {}", reduction.drops);
+        [[name, taken, &reduction.why], ["", "", &drops]].map(|row| row.map(str::to_owned))
+    });
+    print::columns(&head) + "\n" + &print::columns(&lines.collect::<Vec<_>>())
+}
