@@ -122,7 +122,8 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     }
 
     /// The largest residual of a solved step relative to the momentum's size; unless set, 1e-13 for up to 12 coordinates and
-    /// growing as their root, as rounding does.
+    /// growing as their root, as rounding does. Unless set, a residual below 1e-12 that no longer shrinks is taken for rounding:
+    /// where bodies move against each other, their momenta cancel and the rounding is that of the parts.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = Some(tolerance);
         self
@@ -259,8 +260,13 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
                 found,
             });
         }
-        let reachable = || TOLERANCE * (shape.dim() as f64 / FEW).sqrt().max(1.0);
-        let tolerance = self.tolerance.unwrap_or_else(reachable);
+        let few = (shape.dim() as f64 / FEW).sqrt().max(1.0);
+        let tolerance = self.tolerance.unwrap_or(TOLERANCE * few);
+        let floor = if self.tolerance.is_some() {
+            0.0
+        } else {
+            ROUNDING
+        };
         let size = norm(&state.mu);
         if !size.is_finite() {
             return Err(StepError::NotFinite { step, t, h });
@@ -268,12 +274,12 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         work.solver.begin(lagrangian, state, h);
         let warm = work.warm.guess(h, &mut work.coordinates);
         work.c.read(&work.coordinates);
-        let mut solved = work.iterate::<R>(lagrangian, state, h, size, tolerance);
+        let mut solved = work.iterate::<R>(lagrangian, (state, h), size, (tolerance, floor));
         if warm && !solved.converged {
             work.forget();
             work.c.set_zero();
             let before = solved.report;
-            solved = work.iterate::<R>(lagrangian, state, h, size, tolerance);
+            solved = work.iterate::<R>(lagrangian, (state, h), size, (tolerance, floor));
             solved.report.iterations += before.iterations;
         }
         if !solved.converged {
@@ -335,16 +341,17 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         self.solver.forget();
     }
 
-    /// Iterates from the coordinates in `c` until the residual is within the tolerance; `size` is that of the momentum.
+    /// Iterates from the coordinates in `c` until the residual is within the tolerance, or stands below the floor; `size` is
+    /// that of the momentum.
     fn iterate<R: Retraction>(
         &mut self,
         lagrangian: &L,
-        state: &State<L::Group>,
-        h: f64,
+        (state, h): (&State<L::Group>, f64),
         size: f64,
-        tolerance: f64,
+        (tolerance, floor): (f64, f64),
     ) -> Solved {
-        let (mut best, mut last, mut scale) = (f64::INFINITY, f64::INFINITY, 0.0);
+        let (mut best, mut scale) = (f64::INFINITY, 0.0);
+        let [mut last, mut before] = [f64::INFINITY; 2];
         for iterations in 1..=MAX_ITERATIONS {
             let mut residual = self.evaluate::<R>(lagrangian, state, h);
             if iterations == 1 {
@@ -352,11 +359,15 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 scale = size.max(norm(&self.balance.transported));
             }
             residual = relative(residual, scale);
-            if residual <= tolerance {
+            // Over two iterations: the contraction's eigenvalues are complex, and single ones jump.
+            let slow = residual > M::SLOW * last
+                && (before.is_infinite() || residual > M::SLOW * M::SLOW * before);
+            let stands = slow && residual < floor;
+            if residual <= tolerance || stands {
                 let more = self.finish_cyclic::<R>(lagrangian, state, h);
                 // What that has moved may be just above the tolerance again: then iterate on.
                 residual = relative(norm(&self.balance.residual), scale);
-                if residual <= tolerance {
+                if residual <= tolerance || stands {
                     let report = StepReport {
                         iterations: iterations + more,
                         residual,
@@ -380,10 +391,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 };
             }
             best = best.min(residual);
-            if self.solver.is_stale() || residual > M::SLOW * last {
+            if self.solver.is_stale() || slow {
                 self.solver.renew::<R>(lagrangian, state, h, &self.c);
             }
-            last = residual;
+            (last, before) = (residual, last);
             self.solver
                 .solve(lagrangian, &self.balance.residual, &mut self.delta);
             self.c.add_scaled(-1.0, &self.delta);
