@@ -360,8 +360,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             }
             residual = relative(residual, scale);
             // Over two iterations: the contraction's eigenvalues are complex, and single ones jump.
-            let slow = residual > M::SLOW * last
-                && (before.is_infinite() || residual > M::SLOW * M::SLOW * before);
+            let slow = match before.is_finite() {
+                true => residual > M::SLOW * last && residual > M::SLOW * M::SLOW * before,
+                false => residual > last,
+            };
             let stands = slow && residual < floor;
             if residual <= tolerance || stands {
                 let more = self.finish_cyclic::<R>(lagrangian, state, h);
