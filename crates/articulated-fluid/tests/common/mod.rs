@@ -217,7 +217,7 @@ impl Shape {
             Self::Any => 0..i,
             Self::Chain => i - 1..i,
             Self::Star => 0..1,
-            Self::Comb => (i - 2 + i % 2).min(i - 1)..(i - 1 + i % 2),
+            Self::Comb => i + i % 2 - 2..i + i % 2 - 1,
         }
     }
 }
