@@ -5,7 +5,7 @@ mod common;
 use articulated_fluid::{ArticulatedBody, Configuration};
 use common::*;
 use dvi::{Inertia, Lagrangian};
-use lie::{Jet, LieGroup, Scalar, VectorSpace};
+use lie::{Jet, LieGroup, Scalar, Vec3, VectorSpace};
 use proptest::prelude::*;
 
 /// The Lagrangian by its value alone: the rest by dual numbers.
@@ -117,5 +117,12 @@ proptest! {
         let after = dvi::legendre_plus(model, 0.0, g, &f, H);
         // Rounding of masses times lengths up to 1e2, over H.
         assert_close(&after.1.0, &(mu.1.vec3() + sample.force() * H).0, 1e-12);
+        // A translation that is kept is left alone.
+        let (before, keeping) = (f.clone(), model.clone().keep_translation());
+        let shift = Vec3([1.0, 2.0, 3.0]);
+        (f.1, c.1) = (shift.into(), shift.into());
+        keeping.eliminate(&mut factor, &mu, H, &mut f, &mut c);
+        prop_assert_eq!((f.1.vec3(), c.1.vec3()), (shift, shift));
+        prop_assert_eq!((f.0, &f.2), (before.0, &before.2));
     }
 }

@@ -41,14 +41,14 @@ proptest! {
         let (size, weighs) = (scale(&sample), weighs(&sample));
         let small = size * size.min(1.0) + weighs;
         assert_close(&closed.d_f.coordinates(), &jets.d_f.coordinates(), 1e-14 * (1.0 + size) / H);
-        assert_close(&closed.d_g.coordinates(), &jets.d_g.coordinates(), 1e-15 * small / H);
+        assert_close(&closed.d_g.coordinates(), &jets.d_g.coordinates(), 4e-15 * small / H);
     }
 
     #[test]
     fn the_closed_form_is_the_derivative_by_differences(sample in any_sample()) {
-        /// The step of the difference: truncation 1e-10, rounding 1e-16 / 1e-5, both times a size up to 1e3.
+        /// The step of the difference: truncation 1e-10, rounding 1e-16 / 1e-5, both times a size up to 3e3.
         const STEP: f64 = 1e-5;
-        const TOLERANCE: f64 = 1e-8;
+        const TOLERANCE: f64 = 3e-8;
         let Sample { model, g, f, .. } = &sample;
         let value = |g: &Configuration, f: &Configuration| DiscreteLagrangian::value(model, g, f, 1.0);
         let derivatives = closed(model, g, f, 1.0);
