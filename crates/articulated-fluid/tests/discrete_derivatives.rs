@@ -2,38 +2,13 @@
 
 mod common;
 
-use articulated_fluid::{ArticulatedBody, Configuration};
+use articulated_fluid::Configuration;
 use common::*;
-use dvi::{Derivatives, DiscreteLagrangian};
-use lie::{JET_DIRECTIONS, Jet, LieGroup, R3, SO3, Scalar, Vec3, VectorSpace};
+use dvi::{DiscreteLagrangian, Lagrangian};
+use lie::{JET_DIRECTIONS, Jet, LieGroup, R3, SO3, Vec3, VectorSpace};
 use proptest::prelude::*;
 
 const H: f64 = 1e-3;
-
-/// The closed form, into storage filled with what must not survive.
-fn closed<S: Scalar>(
-    model: &ArticulatedBody,
-    g: &Configuration<S>,
-    f: &Configuration<S>,
-    h: S,
-) -> Derivatives<Configuration, S> {
-    let mut out = Derivatives::new(g);
-    spoil(&mut out.d_f);
-    spoil(&mut out.d_g);
-    model.derivatives(S::zero(), g, f, h, &mut out);
-    out
-}
-
-fn by_jets<S: Scalar>(
-    model: &ArticulatedBody,
-    g: &Configuration<S>,
-    f: &Configuration<S>,
-    h: S,
-) -> Derivatives<Configuration, S> {
-    let mut out = Derivatives::new(g);
-    out.by_jets(model, S::zero(), g, f, h);
-    out
-}
 
 /// The numbers that a momentum over the duals is made of: value, then derivatives, of each coordinate.
 fn numbers(mu: &Momentum<J>) -> Vec<f64> {
@@ -49,6 +24,13 @@ fn scale(sample: &Sample) -> f64 {
     30.0 * turns.fold(sample.f.1.vec3().norm(), f64::max)
 }
 
+/// The size of the weights' part, times $h$: forces times lengths.
+fn weighs(sample: &Sample) -> f64 {
+    let (gravity, masses) = sample.weights();
+    let sizes = masses.iter().zip(sample.centres(&sample.g));
+    gravity.norm() * H * H * sizes.map(|(m, x)| m.abs() * (1.0 + x.norm())).sum::<f64>()
+}
+
 proptest! {
     #[test]
     fn the_closed_form_is_the_derivative_by_dual_numbers(sample in any_sample()) {
@@ -56,16 +38,17 @@ proptest! {
         let (closed, jets) = (closed(model, g, f, H), by_jets(model, g, f, H));
         // In d_f the duals cancel off-diagonal terms up to 30, however small the displacement is.
         // d_g has no such terms, and is quadratic in a small displacement: relative accuracy in both.
-        let size = scale(&sample);
+        let (size, weighs) = (scale(&sample), weighs(&sample));
+        let small = size * size.min(1.0) + weighs;
         assert_close(&closed.d_f.coordinates(), &jets.d_f.coordinates(), 1e-14 * (1.0 + size) / H);
-        assert_close(&closed.d_g.coordinates(), &jets.d_g.coordinates(), 1e-15 * size * size.min(1.0) / H);
+        assert_close(&closed.d_g.coordinates(), &jets.d_g.coordinates(), 4e-15 * small / H);
     }
 
     #[test]
     fn the_closed_form_is_the_derivative_by_differences(sample in any_sample()) {
-        /// The step of the difference: truncation 1e-10, rounding 1e-16 / 1e-5, both times a size up to 1e3.
+        /// The step of the difference: truncation 1e-10, rounding 1e-16 / 1e-5, both times a size up to 3e3.
         const STEP: f64 = 1e-5;
-        const TOLERANCE: f64 = 1e-8;
+        const TOLERANCE: f64 = 3e-8;
         let Sample { model, g, f, .. } = &sample;
         let value = |g: &Configuration, f: &Configuration| DiscreteLagrangian::value(model, g, f, 1.0);
         let derivatives = closed(model, g, f, 1.0);
@@ -100,34 +83,52 @@ proptest! {
     }
 
     #[test]
-    fn the_position_enters_nowhere(sample in any_sample(), x in vector(1e6)) {
+    fn the_position_enters_by_the_weight_alone(sample in any_sample(), x in vector(1e6)) {
         let Sample { model, g, f, .. } = &sample;
         let elsewhere = (g.0, R3::from(x), g.2.clone());
         let (here, there) = (closed(model, g, f, H), closed(model, &elsewhere, f, H));
         prop_assert_eq!(here.d_f, there.d_f);
         prop_assert_eq!(&here.d_g, &there.d_g);
-        prop_assert_eq!(here.d_g.1.vec3(), Vec3::zero());
         let value = |g| DiscreteLagrangian::value(model, g, f, H);
-        prop_assert_eq!(value(g), value(&elsewhere));
-        prop_assert_eq!(model.cyclic(), 3..6);
+        if sample.floats() {
+            prop_assert_eq!(here.d_g.1.vec3(), Vec3::zero());
+            prop_assert_eq!(value(g), value(&elsewhere));
+        }
+        let force = sample.force();
+        assert_close(&here.d_g.1.0, &(force * H).0, 1e-15 * H * force.norm());
+        // Rounding of forces times the way.
+        let work = force.dot(x - g.1.vec3()) * H;
+        let size = value(g).abs() + H * force.norm() * x.norm();
+        assert_close(&[value(&elsewhere) - value(g)], &[work], 1e-15 * size);
+        let cyclic = if sample.floats() { 3..6 } else { 0..0 };
+        prop_assert_eq!(DiscreteLagrangian::cyclic(model), cyclic.clone());
+        prop_assert_eq!(Lagrangian::cyclic(model), cyclic);
+        let keeping = model.clone().keep_translation();
+        prop_assert!(DiscreteLagrangian::cyclic(&keeping).is_empty());
     }
 
     #[test]
-    fn a_rotation_of_the_whole_system_changes_nothing(sample in any_sample(), q in attitude()) {
+    fn a_rotation_of_the_whole_system_and_of_gravity_changes_nothing(sample in any_sample(), q in attitude()) {
         let Sample { model, g, f, .. } = &sample;
         let whole = |r: &SO3| q.compose(r);
         let rotated = (whole(&g.0), R3::from(q.rotate(g.1.vec3())), g.2.iter().map(whole).collect());
         let carried = (f.0, R3::from(q.rotate(f.1.vec3())), f.2.clone());
+        let mut turned = sample.clone();
+        if let Some((gravity, _)) = &mut turned.weight {
+            *gravity = q.rotate(*gravity);
+        }
         let before = DiscreteLagrangian::value(model, g, f, H);
-        let after = DiscreteLagrangian::value(model, &rotated, &carried, H);
+        let after = DiscreteLagrangian::value(&turned.rebuilt().model, &rotated, &carried, H);
         // Rounding of a quadratic form.
-        let size = scale(&sample);
-        assert_close(&[after], &[before], 1e-16 * size * size / H);
-        // Its derivative at the identity: the moments on all attitudes balance that of the displaced momentum.
+        let (size, weighs) = (scale(&sample), weighs(&sample));
+        let tolerance = (1e-16 * size * size + 1e-15 * weighs) / H;
+        assert_close(&[after], &[before], tolerance);
+        // Its derivative at the identity: the moments on all attitudes balance those of the displaced momentum and the weights.
         let derivatives = closed(model, g, f, H);
         let moments = g.2.iter().zip(derivatives.d_g.2.iter()).map(|(r, d)| r.rotate(d.vec3()));
         let moment = moments.fold(g.0.rotate(derivatives.d_g.0.vec3()), |sum, m| sum + m);
+        let moment = moment + g.1.vec3().cross(derivatives.d_g.1.vec3());
         let displaced = f.1.vec3().cross(derivatives.d_f.1.vec3());
-        assert_close(&moment.0, &(-displaced).0, 1e-16 * size * size / H);
+        assert_close(&moment.0, &(sample.moment() * H - displaced).0, tolerance);
     }
 }

@@ -122,6 +122,60 @@ fn a_joint_leads_from_a_body_to_a_later_one_at_finite_points() {
 }
 
 #[test]
+fn a_tree_that_is_no_tree_is_refused() {
+    let bodies = [sound(); 4];
+    // A ring beside the first body, and two parents of one body.
+    let ring = [joint(0, 1), joint(3, 2), joint(2, 3)];
+    let refused = |index, parent, child| ModelError::Joint {
+        joint: index,
+        parent,
+        child,
+        last: 3,
+    };
+    assert_eq!(refusal(&bodies, &ring), refused(1, 3, 2));
+    let shared = [joint(0, 1), joint(0, 2), joint(1, 3), joint(2, 3)];
+    let expected = ModelError::Joints { body: 3, count: 2 };
+    assert_eq!(refusal(&bodies, &shared), expected);
+    let chain = [joint(2, 3), joint(0, 1), joint(1, 2)];
+    assert!(ArticulatedBody::new(&bodies, &chain).is_ok());
+}
+
+#[test]
+fn what_overflows_is_refused() {
+    for (index, size) in [(1, 1e160), (2, 1e300)] {
+        let mut joints = [joint(0, 1), joint(1, 2)];
+        joints[index - 1].at_child = Vec3([size, 0.0, 0.0]);
+        let refused = refusal(&[sound(); 3], &joints);
+        assert_eq!(refused, ModelError::OutOfRange { body: index });
+    }
+}
+
+#[test]
+fn a_weight_that_is_none_is_refused() {
+    let joints = [joint(0, 1), joint(1, 2)];
+    let model = ArticulatedBody::new(&[sound(); 3], &joints).expect("a model");
+    let down = Vec3([0.0, 0.0, -9.81]);
+    for found in [0, 2, 4] {
+        let refused = model.clone().with_gravity(down, &vec![1.0; found]);
+        let expected = ModelError::NetMasses { expected: 3, found };
+        assert_eq!(refused, Err(expected));
+    }
+    let expected = Err(ModelError::NotFinite { quantity: "weight" });
+    for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for i in 0..3 {
+            let (mut gravity, mut masses) = (down, [1.0, -1.0, 0.5]);
+            gravity[i] = x;
+            assert_eq!(model.clone().with_gravity(gravity, &masses), expected);
+            masses[i] = x;
+            assert_eq!(model.clone().with_gravity(down, &masses), expected);
+        }
+    }
+    let too_much = [f64::MAX, f64::MAX, 0.0];
+    assert_eq!(model.clone().with_gravity(down, &too_much), expected);
+    assert!(model.with_gravity(down, &[1.0, -1.0, 0.5]).is_ok());
+}
+
+#[test]
 fn a_state_with_another_number_of_bodies_is_refused() {
     let joints = [joint(0, 1), joint(0, 2)];
     let model = ArticulatedBody::new(&[sound(); 3], &joints).expect("a model");
@@ -214,6 +268,6 @@ proptest! {
         // The joints may come in any order.
         let mut shuffled = joints.clone();
         shuffled.rotate_left(turn.min(joints.len()));
-        prop_assert_eq!(&ArticulatedBody::new(bodies, &shuffled).expect("a model"), model);
+        prop_assert_eq!(&build(bodies, &shuffled, &sample.weight), model);
     }
 }

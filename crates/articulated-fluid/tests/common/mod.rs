@@ -1,8 +1,10 @@
-//! Random models and states, dual numbers along curves, dense linear algebra and comparisons.
+//! Random trees and states, dual numbers along curves, dense linear algebra and comparisons.
 #![allow(dead_code)] // Each test file uses its part.
 
-use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
-use dvi::{ContinuousSystem, Lagrangian};
+use core::ops::Range;
+
+use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, Mass};
+use dvi::{ContinuousSystem, Derivatives, DiscreteLagrangian, Lagrangian, State};
 use lie::{
     AlgebraOver, DualOver, JET_DIRECTIONS, Jet, LieGroup, Mat3, Power, RealGroup, Rn, SO3, Scalar,
     Tangent, Vec3, VectorSpace,
@@ -21,17 +23,158 @@ pub type Matrix = Vec<Vec<f64>>;
 pub struct Sample {
     pub bodies: Vec<Body>,
     pub joints: Vec<Joint>,
+    /// Gravity and the net mass of each body.
+    pub weight: Option<(Vec3, Vec<f64>)>,
     pub model: ArticulatedBody,
     pub g: Configuration,
     pub f: Configuration,
     pub xi: Velocity,
 }
 
+/// The model of these bodies, joints and weight.
+pub fn build(
+    bodies: &[Body],
+    joints: &[Joint],
+    weight: &Option<(Vec3, Vec<f64>)>,
+) -> ArticulatedBody {
+    let model = ArticulatedBody::new(bodies, joints).expect("a model");
+    match weight {
+        Some((gravity, masses)) => model.with_gravity(*gravity, masses).expect("a weight"),
+        None => model,
+    }
+}
+
 impl Sample {
+    /// The same with other masses or weights.
+    pub fn rebuilt(mut self) -> Self {
+        self.model = build(&self.bodies, &self.joints, &self.weight);
+        self
+    }
+
+    /// The same without a fluid: each mass a number.
+    pub fn dry(mut self) -> Self {
+        for body in &mut self.bodies {
+            body.mass = Mat3::diagonal([body.mass.trace() / 3.0; 3]);
+        }
+        self.rebuilt()
+    }
+
     /// The momentum of the velocity.
     pub fn mu(&self) -> Momentum {
         Lagrangian::legendre(&self.model, 0.0, &self.g, &self.xi)
     }
+
+    pub fn state(&self) -> State<Configuration> {
+        let (g, mu) = (self.g.clone(), self.mu());
+        State { t: 0.25, g, mu }
+    }
+
+    /// Gravity and net mass of each body; zero without a weight.
+    pub fn weights(&self) -> (Vec3, Vec<f64>) {
+        let none = || (Vec3::zero(), vec![0.0; self.bodies.len()]);
+        self.weight.clone().unwrap_or_else(none)
+    }
+
+    /// The sum of the weights.
+    pub fn force(&self) -> Vec3 {
+        let (gravity, masses) = self.weights();
+        gravity * masses.iter().sum::<f64>()
+    }
+
+    /// Whether nothing depends on where the whole is.
+    pub fn floats(&self) -> bool {
+        self.weights().1.iter().sum::<f64>() == 0.0
+    }
+
+    /// The centres from the first body on: $x_p + R_p d_{pi} - R_i d_{ip}$.
+    pub fn centres<S: Scalar>(&self, (r0, x, r): &Configuration<S>) -> Vec<Vec3<S>> {
+        let attitude = |i: usize| if i == 0 { r0 } else { &r[i - 1] };
+        let mut centres = vec![x.vec3()];
+        for joint in &self.joints {
+            let on = attitude(joint.parent).rotate(joint.at_parent.lift());
+            let back = attitude(joint.child).rotate(joint.at_child.lift());
+            centres.push(centres[joint.parent] + on - back);
+        }
+        centres
+    }
+
+    /// $U = -\sum_i m_i \gamma \cdot x_i$.
+    pub fn potential<S: Scalar>(&self, g: &Configuration<S>) -> S {
+        let (gravity, masses) = self.weights();
+        let weighed = masses.into_iter().zip(self.centres(g));
+        weighed.fold(S::zero(), |sum, (m, x)| sum - (gravity * m).lift().dot(x))
+    }
+
+    /// $\sum_i x_i \times m_i \gamma$: the moment of the weights about the origin.
+    pub fn moment(&self) -> Vec3 {
+        let (gravity, masses) = self.weights();
+        let weighed = masses.into_iter().zip(self.centres(&self.g));
+        weighed.fold(Vec3::zero(), |sum, (m, x)| sum + x.cross(gravity * m))
+    }
+
+    /// The velocity of each centre in the reference frame as a linear map of $\xi$, by its 3 rows:
+    /// $\dot x_i = \dot x_p - R_p \hat d_{pi} \Omega_p + R_i \hat d_{ip} \Omega_i$.
+    pub fn jacobians(&self) -> Vec<Matrix> {
+        let r = attitudes(&self.g);
+        let mut first = vec![vec![0.0; self.xi.dim()]; 3];
+        (0..3).for_each(|k| first[k][3 + k] = 1.0);
+        let mut jacobians = vec![first];
+        for joint in &self.joints {
+            let mut rows = jacobians[joint.parent].clone();
+            let on_parent = -(*r[joint.parent].matrix() * joint.at_parent.hat());
+            let on_child = *r[joint.child].matrix() * joint.at_child.hat();
+            for (body, block) in [(joint.parent, on_parent), (joint.child, on_child)] {
+                for (k, row) in rows.iter_mut().enumerate() {
+                    let row = &mut row[rates(body)];
+                    (0..3).for_each(|j| row[j] += block[(k, j)]);
+                }
+            }
+            jacobians.push(rows);
+        }
+        jacobians
+    }
+
+    /// The velocities of the centres in the reference frame.
+    pub fn centre_velocities(&self) -> Vec<Vec3> {
+        let xi = self.xi.coordinates();
+        let velocity = |j: Matrix| product(&j, &xi).try_into().map(Vec3).expect("three rows");
+        self.jacobians().into_iter().map(velocity).collect()
+    }
+
+    /// The inertia of any tree, $\sum_i V_i^T R_i M_i R_i^T V_i$ with the linear maps $V_i$, and each $J_i$ on the diagonal.
+    pub fn inertia(&self) -> Matrix {
+        let mut out = vec![vec![0.0; self.xi.dim()]; self.xi.dim()];
+        let moving = self
+            .bodies
+            .iter()
+            .zip(self.jacobians())
+            .zip(attitudes(&self.g));
+        for (i, ((body, v), r)) in moving.enumerate() {
+            let m = r.matrix().conjugate(body.mass);
+            for (row, entries) in out.iter_mut().enumerate() {
+                let momentum = [0, 1, 2].map(|k| (0..3).map(|l| v[l][row] * m[(l, k)]).sum());
+                let momentum: [f64; 3] = momentum;
+                for (column, entry) in entries.iter_mut().enumerate() {
+                    *entry += (0..3).map(|k| momentum[k] * v[k][column]).sum::<f64>();
+                }
+            }
+            let own = rates(i);
+            for (k, row) in own.clone().enumerate() {
+                (0..3).for_each(|l| out[row][own.start + l] += body.inertia[(k, l)]);
+            }
+        }
+        out
+    }
+}
+
+/// The coordinates of body `i`'s rotation: those of the first body come before its translation's.
+pub fn rates(i: usize) -> Range<usize> {
+    let first = if i == 0 { 0 } else { 3 + 3 * i };
+    first..first + 3
+}
+
+pub fn attitudes(g: &Configuration) -> Vec<SO3> {
+    core::iter::once(g.0).chain(g.2.iter().copied()).collect()
 }
 
 pub fn vector(size: f64) -> impl Strategy<Value = Vec3> {
@@ -56,47 +199,98 @@ pub fn attitude() -> impl Strategy<Value = SO3> {
         .prop_map(SO3::from_quaternion)
 }
 
-/// Attitudes anywhere, the displacement up to `size` in angle and length.
-fn sample_of(tails: usize, size: f64) -> impl Strategy<Value = Sample> {
-    let points = prop::collection::vec((vector(1.5), vector(1.5)), tails);
+/// How a tree branches.
+#[derive(Clone, Copy, Debug)]
+pub enum Shape {
+    /// Each body is on any before it.
+    Any,
+    Chain,
+    Star,
+    /// A chain of the even bodies, an odd one on each.
+    Comb,
+}
+
+impl Shape {
+    /// The bodies that may carry body `i`.
+    pub fn parents(self, i: usize) -> Range<usize> {
+        match self {
+            Self::Any => 0..i,
+            Self::Chain => i - 1..i,
+            Self::Star => 0..1,
+            Self::Comb => i + i % 2 - 2..i + i % 2 - 1,
+        }
+    }
+}
+
+/// No weight; any; and one that the whole does not feel. The net masses' sums have no rounding.
+fn weight(bodies: usize) -> impl Strategy<Value = Option<(Vec3, Vec<f64>)>> {
+    let masses = prop::collection::vec((-64..64_i32).prop_map(|m| f64::from(m) / 64.0), bodies);
+    (0..3_u8, vector(2.0), masses).prop_map(|(kind, gravity, mut masses)| {
+        if kind == 1 {
+            masses[0] -= masses.iter().sum::<f64>();
+        }
+        (kind > 0).then_some((gravity, masses))
+    })
+}
+
+/// A tree of `others` bodies beside the first. Attitudes anywhere, the displacement up to `size` in angle and length.
+pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value = Sample> {
+    let parents: Vec<_> = (1..=others).map(|i| shape.parents(i)).collect();
+    let points = prop::collection::vec((vector(1.5), vector(1.5)), others);
     let displacement = move || vector(size / 3_f64.sqrt());
-    let turns = prop::collection::vec(displacement().prop_map(|w| SO3::exp(&w.into())), tails + 1);
+    let turns = prop::collection::vec(displacement().prop_map(|w| SO3::exp(&w.into())), others + 1);
     (
-        prop::collection::vec(body(), tails + 1),
-        points,
-        (vector(5.0), prop::collection::vec(attitude(), tails + 1)),
+        prop::collection::vec(body(), others + 1),
+        (parents, points, weight(others + 1)),
+        (vector(5.0), prop::collection::vec(attitude(), others + 1)),
         (displacement(), turns),
-        (vector(1.0), prop::collection::vec(vector(1.0), tails + 1)),
+        (vector(1.0), prop::collection::vec(vector(1.0), others + 1)),
     )
-        .prop_map(|(bodies, points, (x, r), (dx, f), (v, omega))| {
-            let joint = |(i, (at_parent, at_child))| Joint {
-                parent: 0,
-                child: i + 1,
-                at_parent,
-                at_child,
-            };
-            let joints: Vec<_> = points.into_iter().enumerate().map(joint).collect();
-            let pose = |x: Vec3, r: &[SO3]| (r[0], Rn(x.0), Power::new(r[1..].to_vec()));
-            let rates: Vec<Tangent<3>> = omega.into_iter().map(Tangent::from).collect();
-            Sample {
-                model: ArticulatedBody::new(&bodies, &joints).expect("a model"),
-                bodies,
-                joints,
-                g: pose(x, &r),
-                f: pose(dx, &f),
-                xi: (rates[0], v.into(), Power::new(rates[1..].to_vec())),
-            }
-        })
+        .prop_map(
+            |(bodies, (parents, points, weight), (x, r), (dx, f), (v, omega))| {
+                let joint = |(i, (parent, (at_parent, at_child)))| Joint {
+                    parent,
+                    child: i + 1,
+                    at_parent,
+                    at_child,
+                };
+                let joints: Vec<_> = parents
+                    .into_iter()
+                    .zip(points)
+                    .enumerate()
+                    .map(joint)
+                    .collect();
+                let pose = |x: Vec3, r: &[SO3]| (r[0], Rn(x.0), Power::new(r[1..].to_vec()));
+                let rates: Vec<Tangent<3>> = omega.into_iter().map(Tangent::from).collect();
+                Sample {
+                    model: build(&bodies, &joints, &weight),
+                    bodies,
+                    joints,
+                    weight,
+                    g: pose(x, &r),
+                    f: pose(dx, &f),
+                    xi: (rates[0], v.into(), Power::new(rates[1..].to_vec())),
+                }
+            },
+        )
 }
 
-/// 0 to 4 tails, displacements tiny and large.
+/// 1 to 5 bodies, displacements tiny and large.
 pub fn any_sample() -> impl Strategy<Value = Sample> {
-    (0..=4_usize, sizes()).prop_flat_map(|(tails, size)| sample_of(tails, size))
+    (0..=4_usize, sizes()).prop_flat_map(|(others, size)| sample_of(Shape::Any, others, size))
 }
 
-/// The paper's three bodies.
+/// The paper's three bodies: a star without a weight.
 pub fn three_bodies() -> impl Strategy<Value = Sample> {
-    sizes().prop_flat_map(|size| sample_of(2, size))
+    sizes().prop_flat_map(|size| {
+        sample_of(Shape::Star, 2, size).prop_map(|sample| {
+            Sample {
+                weight: None,
+                ..sample
+            }
+            .rebuilt()
+        })
+    })
 }
 
 fn sizes() -> impl Strategy<Value = f64> {
@@ -200,7 +394,7 @@ where
 /// The continuous flow through a state to first order: $\dot g = g\,\xi$, $\dot\mu = \mathrm{ad}^*_\xi \mu + \tau$.
 pub fn flow(sample: &Sample) -> (Configuration<J>, Momentum<J>) {
     let (g, mu) = (&sample.g, sample.mu());
-    let (xi, tau) = velocity_and_force::<f64>(&sample.model, g, &mu);
+    let (xi, tau) = velocity_and_force::<f64, _>(&sample.model, g, &mu);
     let mut mu_dot = Configuration::coadjoint_bracket(&xi, &mu);
     mu_dot.add_scaled(1.0, &tau);
     let lifted = g.lift::<J>();
@@ -210,8 +404,8 @@ pub fn flow(sample: &Sample) -> (Configuration<J>, Momentum<J>) {
 }
 
 /// Into storage filled with what must not survive.
-pub fn velocity_and_force<S: Scalar>(
-    model: &ArticulatedBody,
+pub fn velocity_and_force<S: Scalar, M: Mass>(
+    model: &ArticulatedBody<M>,
     g: &Configuration<S>,
     mu: &Momentum<S>,
 ) -> (Velocity<S>, Momentum<S>) {
@@ -221,6 +415,45 @@ pub fn velocity_and_force<S: Scalar>(
     let mut workspace = ContinuousSystem::workspace::<S>(model, g);
     model.velocity_and_force::<S>(S::zero(), g, mu, &mut workspace, &mut xi, &mut tau);
     (xi, tau)
+}
+
+/// The closed derivatives, into storage filled with what must not survive.
+pub fn closed<S: Scalar, M: Mass>(
+    model: &ArticulatedBody<M>,
+    g: &Configuration<S>,
+    f: &Configuration<S>,
+    h: S,
+) -> Derivatives<Configuration, S> {
+    let mut out = Derivatives::new(g);
+    spoil(&mut out.d_f);
+    spoil(&mut out.d_g);
+    model.derivatives(S::zero(), g, f, h, &mut out);
+    out
+}
+
+/// The derivatives by dual numbers.
+pub fn by_jets<S: Scalar>(
+    model: &ArticulatedBody,
+    g: &Configuration<S>,
+    f: &Configuration<S>,
+    h: S,
+) -> Derivatives<Configuration, S> {
+    let mut out = Derivatives::new(g);
+    out.by_jets(model, S::zero(), g, f, h);
+    out
+}
+
+/// $\mathsf T_e^* \mathsf L_g \cdot \mathbf D_g L$ by dual numbers.
+pub fn force_by_jets(sample: &Sample) -> Vec<f64> {
+    let Sample { model, g, xi, .. } = sample;
+    let still = along(&g.lift::<J>().zero_algebra(), xi, &xi.zero_like());
+    let mut force = vec![];
+    for first in (0..xi.dim()).step_by(JET_DIRECTIONS) {
+        let value = Lagrangian::value::<J>(model, &moved(g, first), &still);
+        force.extend((0..JET_DIRECTIONS).map(|d| value.partial(d)));
+    }
+    force.truncate(xi.dim());
+    force
 }
 
 /// Fills with NaN, so that a coordinate that is not written shows.
