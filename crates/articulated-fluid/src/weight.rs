@@ -28,9 +28,12 @@ impl Weight {
             levers[node.parent] += node.at_parent * sums[i];
             levers[i] -= node.at_self * sums[i];
         }
+        let total = sums.first().copied().unwrap_or(0.0);
+        let size: f64 = net_masses.iter().map(|mass| mass.abs()).sum();
+        let rounding = f64::EPSILON * size * net_masses.len() as f64;
         Self {
             gravity,
-            total: sums.first().copied().unwrap_or(0.0),
+            total: if total.abs() <= rounding { 0.0 } else { total },
             levers,
         }
     }

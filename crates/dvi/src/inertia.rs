@@ -38,6 +38,33 @@ pub trait Inertia: DiscreteLagrangian {
     );
 }
 
+impl<L: Inertia> Inertia for &L {
+    type Factor = L::Factor;
+
+    fn factor(&self) -> L::Factor {
+        L::factor(self)
+    }
+    #[inline(always)]
+    fn factorise(&self, g: &L::Group, factor: &mut L::Factor) {
+        L::factorise(self, g, factor);
+    }
+    #[inline(always)]
+    fn solve(&self, factor: &mut L::Factor, mu: &Dual<L>, xi: &mut Algebra<L>) {
+        L::solve(self, factor, mu, xi);
+    }
+    #[inline(always)]
+    fn eliminate(
+        &self,
+        factor: &mut L::Factor,
+        mu: &Dual<L>,
+        h: f64,
+        f: &mut L::Group,
+        c: &mut Algebra<L>,
+    ) {
+        L::eliminate(self, factor, mu, h, f, c);
+    }
+}
+
 /// The largest dimension for which the exact matrix, dense, is built where the inertia is not good enough.
 const DENSE_LIMIT: usize = 128;
 
