@@ -126,7 +126,7 @@ proptest! {
         assert_close(&[value], &[value_3], 1e-12 * (1.0 + value.abs()));
         let full = derivatives(&full, &state.g, &f_3);
         for (flat, full) in derivatives(&model, &planar.g, &f).iter().zip(full) {
-            let rounding = 1e-14 * (1.0 / H + largest(&full));
+            let rounding = 1e-13 * (1.0 / H + largest(&full));
             assert_close(&lifted(&plane, &planar.g, flat), &full, rounding);
         }
     }

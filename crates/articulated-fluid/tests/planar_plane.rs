@@ -186,7 +186,7 @@ proptest! {
         let (model, plane, state) = (flat.model(), flat.plane(), flat.state());
         prop_assert!(plane.contains(&state));
         let back = plane.lift(&plane.project(&state));
-        prop_assert!(model.orthogonality_error(&back.g) < 2e-15);
+        prop_assert!(model.orthogonality_error(&back.g) < 4e-15);
         let joints = |g: &Configuration| model.centre_positions(g).iter().flat_map(|x| x.0).collect::<Vec<_>>();
         assert_close(&joints(&back.g), &joints(&state.g), 1e-12);
         assert_close(&back.mu.coordinates(), &state.mu.coordinates(), 1e-12);
@@ -229,7 +229,7 @@ fn what_the_motion_keeps_is_the_same_in_the_plane() {
     let start = full.conserved(&state).expect("finite");
     for _ in 0..200 {
         integrator.step(&mut state, 0.05).expect("a step");
-        assert!(full.orthogonality_error(&state.g) < 2e-15);
+        assert!(full.orthogonality_error(&state.g) < 4e-15);
     }
     let found = full.conserved(&state).expect("finite");
     assert_close(&found.angular.0, &start.angular.0, 1e-13);
