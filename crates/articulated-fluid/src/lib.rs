@@ -41,7 +41,7 @@
 //! # Motion in a plane
 //! Where bodies, joints and motion are symmetric under a mirror, [`planar`] restricts both Lagrangians to the plane, on
 //! $SO(2) \times \mathbb{R}^2 \times SO(2)^n$: [`Plane::find`](planar::Plane::find) finds it, and
-//! [`InPlane`](planar::InPlane) steps the states in space at half the cost, exactly in the plane.
+//! [`InPlane`](planar::InPlane) steps the states in space, exactly in the plane and at little more than half the cost.
 
 mod conserved;
 mod continuous;
