@@ -37,6 +37,11 @@
 //! Sec. V have the opposite sign; and the density there is $1/(32 \pi)$ kg/m³.
 //!
 //! [`OnSe3`] is the same discrete Lagrangian on $SE(3) \times SO(3)^n$. [`scene`] reads scenes from files.
+//!
+//! # Motion in a plane
+//! Where bodies, joints and motion are symmetric under a mirror, [`planar`] restricts both Lagrangians to the plane, on
+//! $SO(2) \times \mathbb{R}^2 \times SO(2)^n$: [`Plane::find`](planar::Plane::find) finds it, and
+//! [`InPlane`](planar::InPlane) steps the states in space, exactly in the plane and at little more than half the cost.
 
 mod conserved;
 mod continuous;

@@ -12,7 +12,7 @@ use crate::discrete::PerBody;
 use crate::elimination::of_mut;
 
 /// $E = F - I$ as $(\cos\varphi - 1, \sin\varphi)$.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Turn<S> {
     cos_minus_one: S,
     sin: S,

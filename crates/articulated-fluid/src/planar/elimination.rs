@@ -217,6 +217,8 @@ impl<S: Scalar> Elimination<S> {
 pub struct Factor {
     r0: SO2,
     elimination: Elimination,
+    /// $F_i - I$.
+    turns: Vec<Turn<f64>>,
     /// $\left(\sum_i R_i M_i R_i^T\right)^{-1}$: (31) solved for $\Delta x$.
     total_mass_inverse: Sym2,
 }
@@ -228,6 +230,7 @@ impl Inertia for PlanarBody {
         Factor {
             r0: SO2::identity(),
             elimination: Elimination::new(self),
+            turns: vec![Turn::of(&SO2::identity()); self.nodes.len()],
             total_mass_inverse: Sym2::zero(),
         }
     }
@@ -275,12 +278,15 @@ impl Factor {
     #[inline(always)]
     fn turning_momentum(&mut self, tree: &PlanarBody, f: Attitudes<f64>) -> Vec2 {
         let links = &mut self.elimination.links;
+        for (i, turn) in self.turns.iter_mut().enumerate() {
+            *turn = Turn::of(of(f, i));
+        }
         (links[0].v, links[0].force) = (Vec2::zero(), Vec2::zero());
         for (i, node) in tree.nodes.iter().enumerate().skip(1) {
-            let swept = Turn::of(of(f, node.parent)).apply(node.at_parent);
+            let swept = self.turns[node.parent].apply(node.at_parent);
             let joint = links[node.parent].v + swept;
             let link = &mut links[i];
-            link.v = joint.rotated_back(&link.c) - Turn::of(of(f, i)).apply(node.at_self);
+            link.v = joint.rotated_back(&link.c) - self.turns[i].apply(node.at_self);
             link.force = node.mass.apply(link.v);
         }
         for (i, node) in tree.nodes.iter().enumerate().skip(1).rev() {

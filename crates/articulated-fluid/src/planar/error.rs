@@ -1,23 +1,41 @@
 //! Why a motion is not planar.
 
+use core::fmt::{Display, Formatter, Result};
+
 use thiserror::Error;
 
 /// No plane is a mirror of the model and its motion.
 ///
 /// It speaks of the plane that the fewest parts of the model and the state violate.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error(
-    "no motion in a plane: {what} of body {body} by {defect:.1e} of its size (rounding makes 1e-12 at most); the momenta change out of the plane by {torque:.1e} N m"
-)]
 pub struct NotPlanar {
-    /// The largest violation, relative to the size of quantities of its kind.
+    /// The largest violation, relative to the size of quantities of its kind; infinite for what is no state.
     pub defect: f64,
     /// What violates the plane most.
     pub what: NotPlanarCause,
-    /// Index of the body that it is of.
+    /// Index of the body that it is of; of what is the whole's, 0.
     pub body: usize,
     /// The largest part of a $\dot p_i$ out of the plane, $\dot\mu = \mathrm{ad}^\ast_\xi \mu + \tau$ at the state, N m.
     pub torque: f64,
+}
+
+impl Display for NotPlanar {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        let Self {
+            defect,
+            what,
+            body,
+            torque,
+        } = self;
+        write!(f, "no motion in a plane: {what}")?;
+        if *what == NotPlanarCause::State {
+            return Ok(());
+        }
+        write!(
+            f,
+            " (body {body}), by {defect:.1e} of what is of its kind, where rounding makes at most 1e-12; the momenta change out of the plane by {torque:.1e} N m"
+        )
+    }
 }
 
 /// What violates a plane.
@@ -25,24 +43,24 @@ pub struct NotPlanar {
 #[non_exhaustive]
 pub enum NotPlanarCause {
     /// The plane's normal is no principal direction of $M_i$.
-    #[error("the mass couples the plane and its normal, in the frame")]
+    #[error("a mass couples the plane and its normal")]
     MassCoupling,
     /// The plane's normal is no principal direction of $J_i$.
-    #[error("the inertia couples the plane and its normal, in the frame")]
+    #[error("an inertia couples the plane and its normal")]
     InertiaCoupling,
-    /// A joint does not lie in the plane of the mass centre of a body it is on.
-    #[error("a joint is off the plane, in the frame")]
+    /// A joint does not lie in the plane through the mass centre of a body that it is on.
+    #[error("a joint is off the plane of the mass centre")]
     JointOffPlane,
-    /// A body does not spin about the normal.
-    #[error("the angular velocity leaves the normal, that")]
+    /// A body does not spin about the normal alone.
+    #[error("an angular velocity is not along the normal")]
     SpinOffPlane,
     /// The first body's velocity has a part along the normal.
-    #[error("the velocity leaves the plane, that")]
+    #[error("the velocity is not in the plane")]
     VelocityOffPlane,
     /// Gravity has a part along the normal.
-    #[error("the weight leaves the plane, that")]
+    #[error("gravity is not in the plane")]
     GravityOffPlane,
     /// The state is not one of the model, or has a number that is not finite.
-    #[error("the state does not fit the model or is not finite, first that")]
+    #[error("the state does not fit the model (another number of bodies?) or is not finite")]
     State,
 }

@@ -3,15 +3,14 @@
 use dvi::{ContinuousSystem, State};
 use lie::{LieGroup, Mat3, SO3, Vec3, VectorSpace};
 
-use super::plane::{first_and_rest, unit};
+use super::axes::{normal_to, principal_axes, unit};
+use super::plane::first_and_rest;
 use super::{NotPlanar, NotPlanarCause};
 use crate::elimination::{Momentum, Velocity, of};
 use crate::{ArticulatedBody, Configuration, Mass};
 
 /// Violations up to this are those of rounding.
 const ROUNDING: f64 = 1e-12;
-/// Sweeps of Jacobi's rotations: they converge quadratically.
-const SWEEPS: usize = 8;
 
 /// A normal that was found.
 pub(super) struct Found {
@@ -121,44 +120,46 @@ impl<'a, M: Mass> Motion<'a, M> {
     }
 
     /// Unit vectors that may be the normal, in the reference frame: the coordinate axes, the angular velocity of the fastest
-    /// body, what is normal to the levers and the velocity, and the principal axes of the bodies.
+    /// body, what is normal to the levers and the velocity, and the principal axes of the first body and of the whole.
     fn candidates(&self) -> Vec<Vec3> {
         let bodies = 0..self.model.nodes.len();
         let faster = |a: &usize, b: &usize| self.rate(*a).norm().total_cmp(&self.rate(*b).norm());
-        let fastest = bodies.clone().max_by(faster).unwrap_or(0);
+        let fastest = bodies.max_by(faster).unwrap_or(0);
         let spin = self.attitude(fastest).rotate(self.rate(fastest));
-        let turned = |i: usize| {
-            let (mass, inertia) = (self.model.masses[i].matrix(), self.model.nodes[i].j);
-            let sum = mass * (1.0 / mass.trace()) + inertia * (1.0 / inertia.trace());
-            self.attitude(i).matrix().conjugate(sum)
-        };
-        let all = bodies.map(turned).fold(Mat3::zero(), |sum, a| sum + a);
         let first = self.attitude(0).matrix().conjugate(self.model.nodes[0].j);
+        let levers = self.levers();
         let [x, y, z] = Mat3::identity().0.map(Vec3);
-        let mut candidates = vec![z, y, x, spin, self.normal_to_levers()];
-        candidates.extend(principal_axes(all));
+        let mut candidates = vec![z, y, x, spin, normal_to(&levers)];
         candidates.extend(principal_axes(first));
+        candidates.extend(principal_axes(self.shape(&levers)));
         candidates.retain(|n| n.is_finite() && n.norm() > 0.0);
         candidates.into_iter().map(unit).collect()
     }
 
-    /// The cross product of two of the vectors that lie in the plane, or zero: the longest, and what is farthest from its line.
-    fn normal_to_levers(&self) -> Vec3 {
-        let nodes = self.model.nodes.iter().enumerate();
-        let points = nodes.flat_map(|(i, node)| {
+    /// What lies in the plane, relative to its size, in the reference frame: the joints from the mass centres, the velocity.
+    fn levers(&self) -> Vec<Vec3> {
+        let points = self.model.nodes.iter().enumerate().flat_map(|(i, node)| {
             let on = self.attitude(node.parent);
-            [
+            let points = [
                 on.rotate(node.at_parent),
                 self.attitude(i).rotate(node.at_self),
-            ]
+            ];
+            points.map(|x| x * (1.0 / self.length))
         });
-        let velocity = self.xi.1.vec3() * (self.length / self.speed.max(f64::MIN_POSITIVE));
-        let vectors: Vec<Vec3> = points.chain([velocity]).collect();
-        let longer = |a: &Vec3, b: &Vec3| a.norm().total_cmp(&b.norm());
-        let longest = vectors.iter().copied().max_by(longer);
-        let across = |longest: Vec3| vectors.iter().map(move |x| longest.cross(*x));
-        let normal = longest.and_then(|longest| across(longest).max_by(longer));
-        normal.unwrap_or(Vec3::zero())
+        let velocity = self.xi.1.vec3() * (1.0 / self.speed.max(f64::MIN_POSITIVE));
+        points.chain([velocity]).collect()
+    }
+
+    /// A symmetric matrix with the normal as a principal axis, as it is one of each term: masses, inertias, levers $x x^T$.
+    fn shape(&self, levers: &[Vec3]) -> Mat3 {
+        let bodies = self.model.masses.iter().zip(&self.model.nodes).enumerate();
+        let bodies = bodies.map(|(i, (mass, node))| {
+            let (mass, inertia) = (mass.matrix(), node.j);
+            let sum = mass * (1.0 / mass.trace()) + inertia * (1.0 / inertia.trace());
+            self.attitude(i).matrix().conjugate(sum)
+        });
+        let levers = levers.iter().map(|x| x.outer(*x));
+        bodies.chain(levers).fold(Mat3::zero(), |sum, a| sum + a)
     }
 
     /// How many quantities violate the plane with this normal, and the worst of all.
@@ -169,7 +170,7 @@ impl<'a, M: Mass> Motion<'a, M> {
             defect: 0.0,
         };
         self.violations(n).fold((0, none), |(count, worst), one| {
-            let violated = usize::from(one.defect > ROUNDING);
+            let violated = usize::from(!one.defect.le(&ROUNDING));
             let worst = if one.defect > worst.defect {
                 one
             } else {
@@ -224,7 +225,7 @@ impl<'a, M: Mass> Motion<'a, M> {
                 ratio(on.dot(node.at_parent), self.length),
             ),
             violation(SpinOffPlane, i, ratio(spin, self.speed)),
-            violation(GravityOffPlane, i, self.gravity_off_plane(i, n)),
+            violation(GravityOffPlane, 0, self.gravity_off_plane(i, n)),
         ]
         .into_iter()
     }
@@ -273,21 +274,4 @@ fn length<M: Mass>(model: &ArticulatedBody<M>) -> f64 {
 /// The size of a part relative to a whole; none of nothing.
 fn ratio(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part.abs() / whole }
-}
-
-/// The eigenvectors of a symmetric matrix, by Jacobi's rotations.
-fn principal_axes(mut a: Mat3) -> [Vec3; 3] {
-    let mut axes = Mat3::identity();
-    for (p, q) in [(0, 1), (0, 2), (1, 2)].repeat(SWEEPS) {
-        if a[(p, q)] == 0.0 {
-            continue;
-        }
-        let angle = 0.5 * (2.0 * a[(p, q)] / (a[(q, q)] - a[(p, p)])).atan();
-        let (sin, cos) = angle.sin_cos();
-        let mut turn = Mat3::identity();
-        (turn[(p, p)], turn[(p, q)]) = (cos, -sin);
-        (turn[(q, p)], turn[(q, q)]) = (sin, cos);
-        (a, axes) = (turn.conjugate(a), turn * axes);
-    }
-    axes.0.map(Vec3)
 }

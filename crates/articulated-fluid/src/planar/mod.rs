@@ -31,11 +31,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod axes;
 mod continuous;
 mod discrete;
 mod elimination;
 mod error;
 mod find;
+mod frame;
 mod in_plane;
 mod plane;
 mod vector;

@@ -1,9 +1,10 @@
 //! The plane of a motion: states in space to states in the plane, and back.
 
 use dvi::State;
-use lie::{Cotangent, LieGroup, Mat3, Power, Rn, SO2, SO3, Vec3};
+use lie::{Cotangent, LieGroup, Power, Rn, SO2, SO3, Vec3};
 
-use super::vector::{Sym2, Vec2};
+use super::frame::Frame;
+use super::vector::Vec2;
 use super::weight::Weight;
 use super::{Node, NotPlanar, PlanarBody, PlanarConfiguration, find};
 use crate::elimination::of;
@@ -27,84 +28,6 @@ pub struct Plane {
     offset: f64,
     /// The size of the bodies, m.
     length: f64,
-}
-
-/// A right-handed orthonormal frame whose third axis is the normal of a plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Frame {
-    first: Vec3,
-    second: Vec3,
-    normal: Vec3,
-}
-
-impl Frame {
-    /// The frame with this normal, its first axis near a coordinate axis.
-    fn with_normal(normal: Vec3) -> Self {
-        let normal = unit(normal);
-        let alignment = |k: &usize| normal[*k].abs();
-        let most = (0..3).min_by(|a, b| alignment(a).total_cmp(&alignment(b)));
-        let mut axis = Vec3::zero();
-        axis[most.unwrap_or(0)] = 1.0;
-        let first = unit(axis - normal * normal.dot(axis));
-        Self {
-            first,
-            second: normal.cross(first),
-            normal,
-        }
-    }
-
-    /// The coordinates in the plane.
-    fn project(&self, x: Vec3) -> Vec2 {
-        Vec2([self.first.dot(x), self.second.dot(x)])
-    }
-
-    fn lift(&self, Vec2([x, y]): Vec2) -> Vec3 {
-        self.first * x + self.second * y
-    }
-
-    /// The block of a symmetric matrix in the plane.
-    fn block(&self, a: Mat3) -> Sym2 {
-        let (first, second) = (a * self.first, a * self.second);
-        Sym2([
-            self.first.dot(first),
-            self.first.dot(second),
-            self.second.dot(second),
-        ])
-    }
-
-    /// The angle of $W^T R N$, with `self` as $W$, as a rotation; of a rotation that does not keep the plane, the nearest.
-    fn angle_of(&self, r: &SO3, body: &Self) -> SO2 {
-        let (u, v) = (r.rotate(body.first), r.rotate(body.second));
-        let cos = self.first.dot(u) + self.second.dot(v);
-        let sin = self.second.dot(u) - self.first.dot(v);
-        let length = cos.hypot(sin);
-        if length == 0.0 {
-            return SO2::identity();
-        }
-        SO2::from_cos_sin_unchecked(cos / length, sin / length)
-    }
-
-    /// $W \operatorname{rot}(\theta) N^T$ with `self` as $W$.
-    fn attitude(&self, r: &SO2, body: &Self) -> SO3 {
-        let mut r = *r;
-        r.normalize();
-        let (along, across) = (
-            self.lift(Vec2(r.rotate([1.0, 0.0]))),
-            self.lift(Vec2(r.rotate([0.0, 1.0]))),
-        );
-        let columns = [
-            (along, body.first),
-            (across, body.second),
-            (self.normal, body.normal),
-        ];
-        let outer = columns.map(|(to, from)| to.outer(from));
-        SO3::from_matrix_unchecked(outer[0] + outer[1] + outer[2])
-    }
-}
-
-/// $x / |x|$.
-pub(super) fn unit(x: Vec3) -> Vec3 {
-    x * (1.0 / x.norm())
 }
 
 impl Plane {
