@@ -68,20 +68,23 @@ fn turn<S: Scalar>(moved: &Moved<S>) -> Mat3<S> {
 }
 
 impl<M: Mass> ArticulatedBody<M> {
-    /// The displacements, from the first body on.
+    /// The displacements that the turns alone make, $\Delta x = 0$, from the first body on.
     #[inline(always)]
-    fn displace<S: Scalar>(
+    pub(crate) fn displace<S: Scalar>(
         &self,
-        r: Attitudes<S>,
-        (f, dx): (Attitudes<S>, Vec3<S>),
-        moved: &mut [Moved<S>],
+        (r0, _, r): &Configuration<S>,
+        (f0, _, f): &Configuration<S>,
+        out: &mut Derivatives<Configuration, S>,
     ) {
+        let (r, f) = ((r0, &r[..]), (f0, &f[..]));
+        out.scratch.resize(6 * self.nodes.len(), Vec3::zero());
+        let (moved, _) = out.scratch.as_chunks_mut();
         for (i, node) in self.nodes.iter().enumerate() {
             let e = of(f, i).minus_identity();
             let b = match i {
-                0 => r.0.inverse_rotate(dx),
+                0 => Vec3::zero(),
                 _ => {
-                    let parent = &moved[node.parent];
+                    let parent: &Moved<S> = &moved[node.parent];
                     let joint = parent[4] + turn(parent) * node.at_parent.lift();
                     of(r, i).inverse_rotate(of(r, node.parent).rotate(joint))
                 }
@@ -90,23 +93,25 @@ impl<M: Mass> ArticulatedBody<M> {
             moved[i] = [e.row(0), e.row(1), e.row(2), b, y, Vec3::zero()];
         }
     }
-}
 
-impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
-    type Group = Configuration;
-
-    fn value<S: Scalar>(&self, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {
-        self.action(((&g.0, &g.2), g.1.vec3()), ((&f.0, &f.2), f.1.vec3()), h)
+    /// $\sum_i R_i M_i Y_i$ of these displacements.
+    #[inline(always)]
+    pub(crate) fn turning_momentum<S: Scalar>(
+        &self,
+        (r0, _, r): &Configuration<S>,
+        out: &Derivatives<Configuration, S>,
+    ) -> Vec3<S> {
+        let (moved, _): (&[Moved<S>], _) = out.scratch.as_chunks();
+        let bodies = self.masses.iter().zip(moved).enumerate();
+        bodies.fold(Vec3::zero(), |sum, (i, (mass, moved))| {
+            sum + of((r0, r), i).rotate(mass.apply(moved[4]))
+        })
     }
 
-    /// (29)–(33) by recursion: displacements from the first body on, momenta back from the leaves.
-    ///
-    /// $ h\,d_{f_i} = (J^\prime_d F_i - F_i^T J^\prime_d)^\vee - d_{ip} \times F_i^T (M_i B_i + S_i) + \sum_k d_{ik} \times F_i^T C_k G_k$ and
-    /// $ h\,d_{g_i} = M_i Y_i \times B_i + \sum_k E_i l_k \times C_k G_k$ with $G_i = M_i Y_i + S_i$, $S_i = \sum_k C_k G_k$.
+    /// (29)–(33) from the displacements, to which $\Delta x$ is added: momenta, back from the leaves.
     #[inline(always)]
-    fn derivatives<S: Scalar>(
+    pub(crate) fn collect<S: Scalar>(
         &self,
-        _t: S,
         (r0, _, r): &Configuration<S>,
         (f0, dx, f): &Configuration<S>,
         h: S,
@@ -116,14 +121,14 @@ impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
         let Derivatives {
             d_f, d_g, scratch, ..
         } = out;
-        scratch.resize(6 * self.nodes.len(), Vec3::zero());
         let (moved, _) = scratch.as_chunks_mut();
-        self.displace(r, (f, dx.vec3()), moved);
         (d_f.0, d_g.0) = (Vec3::zero().into(), Vec3::zero().into());
         d_f.2.fill(Vec3::zero().into());
         d_g.2.fill(Vec3::zero().into());
         for (i, node) in self.nodes.iter().enumerate().rev() {
             let (e, [.., b, y, carried]) = (turn(&moved[i]), moved[i]);
+            let shift = of(r, i).inverse_rotate(dx.vec3());
+            let (b, y) = (b + shift, y + shift);
             let (mb, my) = (self.masses[i].apply(b), self.masses[i].apply(y));
             let joint = node
                 .at_self
@@ -144,7 +149,7 @@ impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
                 continue;
             }
             let on_parent = of(r, node.parent).inverse_rotate(on_joint);
-            let parent = &mut moved[node.parent];
+            let parent: &mut Moved<S> = &mut moved[node.parent];
             parent[5] += on_parent;
             let slot = of_mut((&mut d_f.0, &mut d_f.2), node.parent);
             let pushed = of(f, node.parent).inverse_rotate(on_parent);
@@ -155,6 +160,31 @@ impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
         }
         let falling = self.weight.as_ref().map(|weight| weight.force::<S>() * h);
         d_g.1 = falling.unwrap_or(Vec3::zero()).into();
+    }
+}
+
+impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
+    type Group = Configuration;
+
+    fn value<S: Scalar>(&self, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {
+        self.action(((&g.0, &g.2), g.1.vec3()), ((&f.0, &f.2), f.1.vec3()), h)
+    }
+
+    /// (29)–(33) by recursion: displacements from the first body on, momenta back from the leaves.
+    ///
+    /// $ h\,d_{f_i} = (J^\prime_d F_i - F_i^T J^\prime_d)^\vee - d_{ip} \times F_i^T (M_i B_i + S_i) + \sum_k d_{ik} \times F_i^T C_k G_k$ and
+    /// $ h\,d_{g_i} = M_i Y_i \times B_i + \sum_k E_i l_k \times C_k G_k$ with $G_i = M_i Y_i + S_i$, $S_i = \sum_k C_k G_k$.
+    #[inline(always)]
+    fn derivatives<S: Scalar>(
+        &self,
+        _t: S,
+        g: &Configuration<S>,
+        f: &Configuration<S>,
+        h: S,
+        out: &mut Derivatives<Configuration, S>,
+    ) {
+        self.displace(g, f, out);
+        self.collect(g, f, h, out);
     }
 
     /// The displacement $\Delta x$ of the first body, but under a weight: (31) is linear in it, and $x$ enters nowhere.

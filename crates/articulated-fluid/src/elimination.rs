@@ -6,7 +6,7 @@
 
 use core::ops::Add;
 
-use dvi::Inertia;
+use dvi::{Derivatives, Inertia, State};
 use lie::{AlgebraOver, DualOver, Mat3, SO3, Scalar, Sym3, Vec3};
 
 use crate::model::Node;
@@ -245,8 +245,6 @@ impl<S: Scalar> Elimination<S> {
 pub struct Factor {
     r0: SO3,
     elimination: Elimination<f64>,
-    /// $F_i - I$.
-    turns: Vec<Mat3>,
     /// $\left(\sum_i R_i M_i R_i^T\right)^{-1}$: (31) solved for $\Delta x$.
     total_mass_inverse: Sym3,
 }
@@ -258,7 +256,6 @@ impl<M: Mass> Inertia for ArticulatedBody<M> {
         Factor {
             r0: SO3::identity(),
             elimination: Elimination::new(self),
-            turns: vec![Mat3::zero(); self.nodes.len()],
             total_mass_inverse: Sym3::zero(),
         }
     }
@@ -283,44 +280,22 @@ impl<M: Mass> Inertia for ArticulatedBody<M> {
     fn eliminate(
         &self,
         factor: &mut Factor,
-        mu: &Momentum,
+        state: &State<Configuration>,
         h: f64,
-        (f0, dx, f): &mut Configuration,
+        f: &mut Configuration,
         c: &mut Velocity,
+        out: &mut Derivatives<Configuration, f64>,
     ) {
-        if self.keeps_translation {
-            return;
+        let State { g, mu, .. } = state;
+        self.displace(g, f, out);
+        if !self.keeps_translation {
+            let mut rest = mu.1.vec3() * h - self.turning_momentum(g, out);
+            if let Some(weight) = &self.weight {
+                rest += weight.force::<f64>() * (h * h);
+            }
+            let solved = factor.total_mass_inverse * rest;
+            (f.1, c.1) = (solved.into(), solved.into());
         }
-        let turning = factor.turning_momentum(self, (f0, f));
-        let mut rest = mu.1.vec3() * h - factor.r0.rotate(turning);
-        if let Some(weight) = &self.weight {
-            rest += weight.force::<f64>() * (h * h);
-        }
-        let solved = factor.total_mass_inverse * rest;
-        (*dx, c.1) = (solved.into(), solved.into());
-    }
-}
-
-impl Factor {
-    /// $R_0^T \sum_i R_i M_i Y_i$ with the displacements $R_i Y_i$ of the centres that the turns alone make, $\Delta x = 0$.
-    #[inline(always)]
-    fn turning_momentum<M: Mass>(&mut self, tree: &ArticulatedBody<M>, f: Attitudes<f64>) -> Vec3 {
-        let links = &mut self.elimination.links;
-        for (i, e) in self.turns.iter_mut().enumerate() {
-            *e = of(f, i).minus_identity();
-        }
-        (links[0].v, links[0].force) = (Vec3::zero(), Vec3::zero());
-        for i in 1..links.len() {
-            let node = &tree.nodes[i];
-            let joint = links[node.parent].v + self.turns[node.parent] * node.at_parent;
-            let link = &mut links[i];
-            link.v = link.c.transpose_mul(joint) - self.turns[i] * node.at_self;
-            link.force = tree.masses[i].apply(link.v);
-        }
-        for i in (1..links.len()).rev() {
-            let on_parent = links[i].c * links[i].force;
-            links[tree.nodes[i].parent].force += on_parent;
-        }
-        links[0].force
+        self.collect(g, f, h, out);
     }
 }

@@ -33,7 +33,11 @@ impl Weight {
         let rounding = f64::EPSILON * size * net_masses.len() as f64;
         Self {
             gravity,
-            total: if total.abs() <= rounding { 0.0 } else { total },
+            total: if total.abs() <= rounding && rounding.is_finite() {
+                0.0
+            } else {
+                total
+            },
             levers,
         }
     }

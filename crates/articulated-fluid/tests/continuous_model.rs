@@ -4,7 +4,7 @@ mod common;
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use common::*;
-use dvi::{Inertia, Lagrangian};
+use dvi::{Derivatives, Inertia, Lagrangian, State};
 use lie::{Jet, LieGroup, Scalar, Vec3, VectorSpace};
 use proptest::prelude::*;
 
@@ -109,19 +109,23 @@ proptest! {
         const H: f64 = 0.1;
         let Sample { model, g, f, .. } = &sample;
         let (mut factor, mut f, mu) = (model.factor(), f.clone(), sample.mu());
+        let state = State { t: 0.0, g: g.clone(), mu };
         model.factorise(g, &mut factor);
         f.1.0 = [f64::NAN; 3];
-        let mut c = f.zero_algebra();
-        model.eliminate(&mut factor, &mu, H, &mut f, &mut c);
+        let (mut c, mut out) = (f.zero_algebra(), Derivatives::new(g));
+        model.eliminate(&mut factor, &state, H, &mut f, &mut c, &mut out);
         assert_eq!(c.1.vec3(), f.1.vec3(), "element and coordinates agree");
-        let after = dvi::legendre_plus(model, 0.0, g, &f, H);
         // Rounding of masses times lengths up to 1e2, over H.
-        assert_close(&after.1.0, &(mu.1.vec3() + sample.force() * H).0, 1e-12);
+        assert_close(&out.d_f.1.0, &(state.mu.1.vec3() + sample.force() * H).0, 1e-12);
+        // The derivatives are those at that displacement.
+        let mut there = Derivatives::new(g);
+        dvi::DiscreteLagrangian::derivatives(model, 0.0, g, &f, H, &mut there);
+        prop_assert_eq!((&out.d_f, &out.d_g), (&there.d_f, &there.d_g));
         // A translation that is kept is left alone.
         let (before, keeping) = (f.clone(), model.clone().keep_translation());
         let shift = Vec3([1.0, 2.0, 3.0]);
         (f.1, c.1) = (shift.into(), shift.into());
-        keeping.eliminate(&mut factor, &mu, H, &mut f, &mut c);
+        keeping.eliminate(&mut factor, &state, H, &mut f, &mut c, &mut out);
         prop_assert_eq!((f.1.vec3(), c.1.vec3()), (shift, shift));
         prop_assert_eq!((f.0, &f.2), (before.0, &before.2));
     }

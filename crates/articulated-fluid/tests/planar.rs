@@ -104,12 +104,15 @@ proptest! {
 
     #[test]
     fn the_translation_is_eliminated_exactly((flat, mut f) in any_moved()) {
-        let (model, State { g, mu, .. }) = flat.planar();
-        let (mut factor, mut c) = (model.factor(), g.zero_algebra());
-        model.factorise(&g, &mut factor);
-        model.eliminate(&mut factor, &mu, H, &mut f, &mut c);
-        let [d_f, d_g] = derivatives(&model, &g, &f);
-        let wanted = [mu.1[0] + d_g[1], mu.1[1] + d_g[2]];
+        let (model, state) = flat.planar();
+        let g = &state.g;
+        let (mut factor, mut c, mut out) = (model.factor(), g.zero_algebra(), Derivatives::new(g));
+        model.factorise(g, &mut factor);
+        model.eliminate(&mut factor, &state, H, &mut f, &mut c, &mut out);
+        let [d_f, d_g] = derivatives(&model, g, &f);
+        prop_assert_eq!(out.d_f.coordinates(), d_f.clone());
+        prop_assert_eq!(out.d_g.coordinates(), d_g.clone());
+        let wanted = [state.mu.1[0] + d_g[1], state.mu.1[1] + d_g[2]];
         assert_close(&d_f[1..3], &wanted, 1e-14 * (1.0 / H + largest(&d_f)));
         prop_assert_eq!(c.1.0, f.1.0);
     }

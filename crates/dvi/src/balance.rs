@@ -46,6 +46,12 @@ impl<G: RealGroup, S: Scalar> Balance<G, S> {
         h: S,
     ) {
         lagrangian.derivatives(t, g, &self.f, h, &mut self.derivatives);
+        self.transport(mu);
+    }
+
+    /// The transported momentum and the residual from the derivatives.
+    #[inline(always)]
+    pub(crate) fn transport(&mut self, mu: &DualOver<G, S>) {
         self.momentum.set_sum(mu, S::one(), &self.derivatives.d_g);
         self.f.coadjoint_into(&self.momentum, &mut self.transported);
         self.residual

@@ -3,7 +3,7 @@
 use lie::{LieGroup, Retraction, VectorSpace};
 
 use crate::solver::{Algebra, Dual, StepSolver};
-use crate::{DiscreteLagrangian, Newton, State};
+use crate::{Derivatives, DiscreteLagrangian, Newton, State};
 
 /// A model that solves its inertia, $\mathbb I(g) \xi = \mu$, faster than a dense matrix does.
 pub trait Inertia: DiscreteLagrangian {
@@ -24,18 +24,23 @@ pub trait Inertia: DiscreteLagrangian {
         xi: &mut <Self::Group as LieGroup>::Algebra,
     );
 
-    /// Solves the equations of the [cyclic](DiscreteLagrangian::cyclic) coordinates exactly: sets those of `f`,
-    /// and the same numbers in its coordinates `c`, such that $\mathbf D_f L_d = \mu$ in them, for the other coordinates of `f` as given.
+    /// The [derivatives](DiscreteLagrangian::derivatives) of a step from `state`, where the [cyclic](DiscreteLagrangian::cyclic)
+    /// coordinates of `f`, and the same numbers in its coordinates `c`, are first set so that $\mathbf D_f L_d = \mu$ holds in
+    /// them, for the other coordinates of `f` as given. One method, since both share most of their terms.
     ///
     /// A model with cyclic coordinates that offers its inertia must implement it.
+    #[inline(always)]
     fn eliminate(
         &self,
-        factor: &mut Self::Factor,
-        mu: &<Self::Group as LieGroup>::Dual,
+        _factor: &mut Self::Factor,
+        state: &State<Self::Group>,
         h: f64,
         f: &mut Self::Group,
-        c: &mut <Self::Group as LieGroup>::Algebra,
-    );
+        _c: &mut <Self::Group as LieGroup>::Algebra,
+        out: &mut Derivatives<Self::Group, f64>,
+    ) {
+        self.derivatives(state.t, &state.g, f, h, out);
+    }
 }
 
 impl<L: Inertia> Inertia for &L {
@@ -56,12 +61,13 @@ impl<L: Inertia> Inertia for &L {
     fn eliminate(
         &self,
         factor: &mut L::Factor,
-        mu: &Dual<L>,
+        state: &State<L::Group>,
         h: f64,
         f: &mut L::Group,
         c: &mut Algebra<L>,
+        out: &mut Derivatives<L::Group, f64>,
     ) {
-        L::eliminate(self, factor, mu, h, f, c);
+        L::eliminate(self, factor, state, h, f, c, out);
     }
 }
 
@@ -116,15 +122,15 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
     }
 
     #[inline(always)]
-    fn eliminate(
+    fn derivatives(
         &mut self,
         lagrangian: &L,
-        mu: &Dual<L>,
-        h: f64,
+        (state, h): (&State<L::Group>, f64),
         f: &mut L::Group,
         c: &mut Algebra<L>,
+        out: &mut Derivatives<L::Group, f64>,
     ) {
-        lagrangian.eliminate(&mut self.factor, mu, h, f, c);
+        lagrangian.eliminate(&mut self.factor, state, h, f, c, out);
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use lie::{LieGroup, Retraction};
 
-use crate::{DiscreteLagrangian, State};
+use crate::{Derivatives, DiscreteLagrangian, State};
 
 /// The matrix of a Newton or quasi-Newton iteration on the momentum balance, in the coordinates $c$ of $f = \tau(c)$.
 ///
@@ -19,15 +19,17 @@ pub trait StepSolver<L: DiscreteLagrangian> {
     /// Prepares the step of size `h` from `state`.
     fn begin(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64);
 
-    /// Solves the equations of the cyclic coordinates of `f` and `c` for given others, where the model does it exactly.
-    fn eliminate(
+    /// The derivatives at $f = \tau(c)$; the cyclic coordinates of both are solved for first, where the model does it exactly.
+    #[inline(always)]
+    fn derivatives(
         &mut self,
-        _lagrangian: &L,
-        _mu: &Dual<L>,
-        _h: f64,
-        _f: &mut L::Group,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        f: &mut L::Group,
         _c: &mut Algebra<L>,
+        out: &mut Derivatives<L::Group, f64>,
     ) {
+        lagrangian.derivatives(state.t, &state.g, f, h, out);
     }
 
     /// Forgets what steps before have left.
@@ -51,7 +53,7 @@ pub trait StepSolver<L: DiscreteLagrangian> {
     /// The correction $\delta$ that the linearised residual asks for; `c - delta` is the next iterate.
     fn solve(&mut self, lagrangian: &L, residual: &Dual<L>, delta: &mut Algebra<L>);
 
-    /// The correction of the cyclic coordinates alone, zero elsewhere; false where [`eliminate`](Self::eliminate) has solved them.
+    /// The correction of the cyclic coordinates alone, zero elsewhere; false where [`derivatives`](Self::derivatives) has solved them.
     fn solve_cyclic(
         &mut self,
         _residual: &Dual<L>,

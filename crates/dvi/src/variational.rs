@@ -416,10 +416,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     #[inline(always)]
     fn evaluate<R: Retraction>(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) -> f64 {
         self.balance.retract::<R>(&self.c);
-        let (f, c) = (&mut self.balance.f, &mut self.c);
-        self.solver.eliminate(lagrangian, &state.mu, h, f, c);
-        let State { t, g, mu } = state;
-        self.balance.evaluate(lagrangian, *t, g, mu, h);
+        let Balance { f, derivatives, .. } = &mut self.balance;
+        self.solver
+            .derivatives(lagrangian, (state, h), f, &mut self.c, derivatives);
+        self.balance.transport(&state.mu);
         norm(&self.balance.residual)
     }
 

@@ -7,7 +7,7 @@ use lie::{SO2, Scalar, Vec3};
 use smallvec::SmallVec;
 
 use super::vector::Vec2;
-use super::{Attitudes, PlanarBody, PlanarConfiguration, of};
+use super::{PlanarBody, PlanarConfiguration, of};
 use crate::discrete::PerBody;
 use crate::elimination::of_mut;
 
@@ -58,20 +58,23 @@ fn turn<S: Scalar>([a, b, _]: &Moved<S>) -> Turn<S> {
 }
 
 impl PlanarBody {
-    /// The displacements, from the first body on.
+    /// The displacements that the turns alone make, $\Delta x = 0$, from the first body on.
     #[inline(always)]
-    fn displace<S: Scalar>(
+    pub(super) fn displace<S: Scalar>(
         &self,
-        r: Attitudes<S>,
-        (f, dx): (Attitudes<S>, Vec2<S>),
-        moved: &mut [Moved<S>],
+        (r0, _, r): &PlanarConfiguration<S>,
+        (f0, _, f): &PlanarConfiguration<S>,
+        out: &mut Derivatives<PlanarConfiguration, S>,
     ) {
+        let (r, f) = ((r0, &r[..]), (f0, &f[..]));
+        out.scratch.resize(3 * self.nodes.len(), Vec3::zero());
+        let (moved, _) = out.scratch.as_chunks_mut();
         for (i, node) in self.nodes.iter().enumerate() {
             let e = Turn::of(of(f, i));
             let b = match i {
-                0 => dx.rotated_back(r.0),
+                0 => Vec2::zero(),
                 _ => {
-                    let parent = &moved[node.parent];
+                    let parent: &Moved<S> = &moved[node.parent];
                     let swept = turn(parent).apply(node.at_parent.lift());
                     let joint = (vector(parent[1]) + swept).rotated(of(r, node.parent));
                     joint.rotated_back(of(r, i))
@@ -81,34 +84,25 @@ impl PlanarBody {
             moved[i] = [pack(e.cos_minus_one, b), pack(e.sin, y), Vec3::zero()];
         }
     }
-}
 
-impl DiscreteLagrangian for PlanarBody {
-    type Group = PlanarConfiguration;
-
-    /// $h L_d = \sum_i \left[\frac12 B_i \cdot M_i B_i - M_i B_i \cdot E_i d_{ip} + (1 - \cos\varphi_i) J'_i\right] - h^2 U$.
-    fn value<S: Scalar>(&self, g: &PlanarConfiguration<S>, f: &PlanarConfiguration<S>, h: S) -> S {
-        let mut moved: PerBody<Moved<S>> = SmallVec::new();
-        moved.resize(self.nodes.len(), [Vec3::zero(); 3]);
-        self.displace((&g.0, &g.2), ((&f.0, &f.2), Vec2(f.1.0)), &mut moved);
-        let mut sum = S::zero();
-        for (node, moved) in self.nodes.iter().zip(&moved) {
-            let (e, b) = (turn(moved), vector(moved[0]));
-            let mb = node.mass.apply(b);
-            let turned = e.apply(node.at_self.lift());
-            sum += b.dot(mb).times(0.5) - mb.dot(turned) - e.cos_minus_one.times(node.j_joint);
-        }
-        sum / h - h * self.potential(g)
+    /// $\sum_i R_i M_i Y_i$ of these displacements.
+    #[inline(always)]
+    pub(super) fn turning_momentum<S: Scalar>(
+        &self,
+        (r0, _, r): &PlanarConfiguration<S>,
+        out: &Derivatives<PlanarConfiguration, S>,
+    ) -> Vec2<S> {
+        let (moved, _): (&[Moved<S>], _) = out.scratch.as_chunks();
+        let bodies = self.nodes.iter().zip(moved).enumerate();
+        bodies.fold(Vec2::zero(), |sum, (i, (node, moved))| {
+            sum + node.mass.apply(vector(moved[1])).rotated(of((r0, r), i))
+        })
     }
 
-    /// (29)–(33) in the plane: displacements from the first body on, momenta back from the leaves.
-    ///
-    /// $ h\,d_{f_i} = J'_i \sin\varphi_i - d_{ip} \times F_i^T (M_i B_i + S_i) + \sum_k d_{ik} \times F_i^T C_k G_k$ and
-    /// $ h\,d_{g_i} = M_i Y_i \times B_i + \sum_k E_i l_k \times C_k G_k$ with $G_i = M_i Y_i + S_i$, $S_i = \sum_k C_k G_k$.
+    /// (29)–(33) from the displacements, to which $\Delta x$ is added: momenta, back from the leaves.
     #[inline(always)]
-    fn derivatives<S: Scalar>(
+    pub(super) fn collect<S: Scalar>(
         &self,
-        _t: S,
         (r0, _, r): &PlanarConfiguration<S>,
         (f0, dx, f): &PlanarConfiguration<S>,
         h: S,
@@ -118,14 +112,14 @@ impl DiscreteLagrangian for PlanarBody {
         let Derivatives {
             d_f, d_g, scratch, ..
         } = out;
-        scratch.resize(3 * self.nodes.len(), Vec3::zero());
         let (moved, _) = scratch.as_chunks_mut();
-        self.displace(r, (f, Vec2(dx.0)), moved);
         (d_f.0[0], d_g.0[0]) = (S::zero(), S::zero());
         d_f.2.iter_mut().for_each(|d| d[0] = S::zero());
         d_g.2.iter_mut().for_each(|d| d[0] = S::zero());
         for (i, node) in self.nodes.iter().enumerate().rev() {
             let (e, [b, y, carried]) = (turn(&moved[i]), moved[i].map(vector));
+            let shift = Vec2(dx.0).rotated_back(of(r, i));
+            let (b, y) = (b + shift, y + shift);
             let (mb, my) = (node.mass.apply(b), node.mass.apply(y));
             let pushed = (mb + carried).rotated_back(of(f, i));
             let turned = e.sin.times(node.j_joint) - node.at_self.lift().cross(pushed);
@@ -142,7 +136,7 @@ impl DiscreteLagrangian for PlanarBody {
                 continue;
             }
             let on_parent = on_joint.rotated_back(of(r, node.parent));
-            let parent = &mut moved[node.parent];
+            let parent: &mut Moved<S> = &mut moved[node.parent];
             parent[2] += pack(S::zero(), on_parent);
             let pushed = on_parent.rotated_back(of(f, node.parent));
             let slot = &mut of_mut((&mut d_f.0, &mut d_f.2), node.parent)[0];
@@ -153,6 +147,50 @@ impl DiscreteLagrangian for PlanarBody {
         }
         let falling = self.weight.as_ref().map(|weight| weight.force::<S>() * h);
         d_g.1.0 = falling.unwrap_or(Vec2::zero()).0;
+    }
+}
+
+impl DiscreteLagrangian for PlanarBody {
+    type Group = PlanarConfiguration;
+
+    /// $h L_d = \sum_i \left[\frac12 B_i \cdot M_i B_i - M_i B_i \cdot E_i d_{ip} + (1 - \cos\varphi_i) J'_i\right] - h^2 U$.
+    fn value<S: Scalar>(&self, g: &PlanarConfiguration<S>, f: &PlanarConfiguration<S>, h: S) -> S {
+        let (r, f) = ((&g.0, &g.2[..]), (&f.0, Vec2(f.1.0), &f.2[..]));
+        let mut displacements: PerBody<Vec2<S>> = SmallVec::with_capacity(self.nodes.len());
+        let mut sum = S::zero();
+        for (i, node) in self.nodes.iter().enumerate() {
+            let b = match i {
+                0 => f.1.rotated_back(r.0),
+                _ => {
+                    let turn = Turn::of(of((f.0, f.2), node.parent));
+                    let swept = turn.apply(node.at_parent.lift());
+                    let joint = (displacements[node.parent] + swept).rotated(of(r, node.parent));
+                    joint.rotated_back(of(r, i))
+                }
+            };
+            let (e, mb) = (Turn::of(of((f.0, f.2), i)), node.mass.apply(b));
+            let turned = e.apply(node.at_self.lift());
+            displacements.push(b - turned);
+            sum += b.dot(mb).times(0.5) - mb.dot(turned) - e.cos_minus_one.times(node.j_joint);
+        }
+        sum / h - h * self.potential(g)
+    }
+
+    /// (29)–(33) in the plane: displacements from the first body on, momenta back from the leaves.
+    ///
+    /// $ h\,d_{f_i} = J'_i \sin\varphi_i - d_{ip} \times F_i^T (M_i B_i + S_i) + \sum_k d_{ik} \times F_i^T C_k G_k$ and
+    /// $ h\,d_{g_i} = M_i Y_i \times B_i + \sum_k E_i l_k \times C_k G_k$ with $G_i = M_i Y_i + S_i$, $S_i = \sum_k C_k G_k$.
+    #[inline(always)]
+    fn derivatives<S: Scalar>(
+        &self,
+        _t: S,
+        g: &PlanarConfiguration<S>,
+        f: &PlanarConfiguration<S>,
+        h: S,
+        out: &mut Derivatives<PlanarConfiguration, S>,
+    ) {
+        self.displace(g, f, out);
+        self.collect(g, f, h, out);
     }
 
     /// The displacement $\Delta x$ of the first body, but under a weight.

@@ -4,10 +4,9 @@
 //! the velocity $u$ of its joint, a vector $K$ and a number $H$. Solved for $\Omega_i$, the force on the joint is
 //! $F_i = M^\ast u + f^\ast$: a mass and a momentum, which its parent takes over.
 
-use dvi::Inertia;
+use dvi::{Derivatives, Inertia, State};
 use lie::{AlgebraOver, DualOver, LieGroup, SO2, Scalar};
 
-use super::discrete::Turn;
 use super::vector::{Sym2, Vec2};
 use super::{Attitudes, Node, PlanarBody, PlanarConfiguration, of};
 use crate::elimination::of_mut;
@@ -217,8 +216,6 @@ impl<S: Scalar> Elimination<S> {
 pub struct Factor {
     r0: SO2,
     elimination: Elimination,
-    /// $F_i - I$.
-    turns: Vec<Turn<f64>>,
     /// $\left(\sum_i R_i M_i R_i^T\right)^{-1}$: (31) solved for $\Delta x$.
     total_mass_inverse: Sym2,
 }
@@ -230,7 +227,6 @@ impl Inertia for PlanarBody {
         Factor {
             r0: SO2::identity(),
             elimination: Elimination::new(self),
-            turns: vec![Turn::of(&SO2::identity()); self.nodes.len()],
             total_mass_inverse: Sym2::zero(),
         }
     }
@@ -255,44 +251,22 @@ impl Inertia for PlanarBody {
     fn eliminate(
         &self,
         factor: &mut Factor,
-        mu: &Momentum,
+        state: &State<PlanarConfiguration>,
         h: f64,
-        (f0, dx, f): &mut PlanarConfiguration,
+        f: &mut PlanarConfiguration,
         c: &mut Velocity,
+        out: &mut Derivatives<PlanarConfiguration, f64>,
     ) {
-        if self.keeps_translation {
-            return;
+        let State { g, mu, .. } = state;
+        self.displace(g, f, out);
+        if !self.keeps_translation {
+            let mut rest = Vec2(mu.1.0) * h - self.turning_momentum(g, out);
+            if let Some(weight) = &self.weight {
+                rest += weight.force() * (h * h);
+            }
+            let solved = (factor.total_mass_inverse * rest).0;
+            (f.1.0, c.1.0) = (solved, solved);
         }
-        let turning = factor.turning_momentum(self, (f0, f));
-        let mut rest = Vec2(mu.1.0) * h - turning.rotated(&factor.r0);
-        if let Some(weight) = &self.weight {
-            rest += weight.force() * (h * h);
-        }
-        let solved = (factor.total_mass_inverse * rest).0;
-        (dx.0, c.1.0) = (solved, solved);
-    }
-}
-
-impl Factor {
-    /// $R_0^T \sum_i R_i M_i Y_i$ with the displacements $R_i Y_i$ of the centres that the turns alone make, $\Delta x = 0$.
-    #[inline(always)]
-    fn turning_momentum(&mut self, tree: &PlanarBody, f: Attitudes<f64>) -> Vec2 {
-        let links = &mut self.elimination.links;
-        for (i, turn) in self.turns.iter_mut().enumerate() {
-            *turn = Turn::of(of(f, i));
-        }
-        (links[0].v, links[0].force) = (Vec2::zero(), Vec2::zero());
-        for (i, node) in tree.nodes.iter().enumerate().skip(1) {
-            let swept = self.turns[node.parent].apply(node.at_parent);
-            let joint = links[node.parent].v + swept;
-            let link = &mut links[i];
-            link.v = joint.rotated_back(&link.c) - self.turns[i].apply(node.at_self);
-            link.force = node.mass.apply(link.v);
-        }
-        for (i, node) in tree.nodes.iter().enumerate().skip(1).rev() {
-            let on_parent = links[i].force.rotated(&links[i].c);
-            links[node.parent].force += on_parent;
-        }
-        links[0].force
+        self.collect(g, f, h, out);
     }
 }
