@@ -71,8 +71,8 @@ impl<L: Inertia> Inertia for &L {
     }
 }
 
-/// The largest dimension for which the exact matrix, dense, is built where the inertia is not good enough.
-const DENSE_LIMIT: usize = 128;
+/// The largest dimension for which a dense matrix is built where the inertia is not good enough, or to say why a step failed.
+pub(crate) const DENSE_LIMIT: usize = 128;
 
 /// Quasi-Newton with the matrix $\mathbb I(g_k)/h$: one factorisation a step, contraction by a factor of the order of $h |\xi|$.
 ///

@@ -5,6 +5,7 @@ use core::ops::Range;
 use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
 
 use crate::balance::Balance;
+use crate::inertia::DENSE_LIMIT;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
 use crate::solver::{Algebra, Dual, StepSolver};
@@ -123,13 +124,16 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
     }
 }
 
-/// Whether $L_d$ has no inertia in some direction: $\mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ is singular at $f = e$.
+/// Whether $L_d$ has no inertia in some direction, where the dimension is small enough to look: $\mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ is singular at $f = e$.
 pub(crate) fn is_degenerate<L: DiscreteLagrangian>(
     lagrangian: &L,
     state: &State<L::Group>,
     h: f64,
 ) -> bool {
     const VANISHING: f64 = 1e-8;
+    if state.mu.dim() > DENSE_LIMIT {
+        return false;
+    }
     let g = state.g.lift::<J>();
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
     let mut derivatives = Derivatives::new(&g);
