@@ -205,7 +205,7 @@ impl<'a> Run<'a> {
             state: state.clone(),
             done: 0,
             solver: Solver::default(),
-            watch: Watch::new(sample),
+            watch: Watch::new(model, sample),
             interrupt,
         };
         run.write(&state, &sample)?;
@@ -321,6 +321,7 @@ impl<'a> Run<'a> {
             energy_initial_joules: watch.initial_energy(),
             energy_error_max_relative: watch.energy_relative(),
             energy_slope_per_second: watch.energy_slope(),
+            gravity_acts: watch.has_weight(),
             linear_momentum_deviation_max: watch.linear(),
             angular_momentum_deviation_max: watch.angular(),
             angular_momentum_deviation_max_relative: watch.angular_relative(),

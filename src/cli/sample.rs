@@ -38,9 +38,45 @@ pub fn attitudes(g: &Configuration) -> impl Iterator<Item = &SO3> {
     core::iter::once(&g.0).chain(g.2.iter())
 }
 
+/// What the symmetries of a model leave of the momenta to be kept.
+#[derive(Clone, Copy, Debug)]
+struct Symmetry {
+    /// The rate of the linear momentum, N.
+    weight: Vec3,
+    /// Gravity's direction: the angular momentum is kept about it alone.
+    vertical: Option<Vec3>,
+}
+
+impl Symmetry {
+    fn of(model: &ArticulatedBody) -> Self {
+        Self {
+            weight: model.net_weight(),
+            vertical: model.gravity().map(|g| g * (1.0 / g.norm())),
+        }
+    }
+
+    /// How far the linear momentum is from where the weight has brought it.
+    fn linear(&self, start: &Sample, now: &Sample) -> f64 {
+        (now.linear - start.linear - self.weight * (now.t - start.t)).norm()
+    }
+
+    /// The change of what is kept of the angular momentum.
+    fn angular(&self, start: &Sample, now: &Sample) -> f64 {
+        self.kept(now.angular - start.angular)
+    }
+
+    fn kept(&self, angular: Vec3) -> f64 {
+        match self.vertical {
+            Some(vertical) => vertical.dot(angular).abs(),
+            None => angular.norm(),
+        }
+    }
+}
+
 /// The worst of the samples so far, against the first.
 #[derive(Clone, Copy, Debug)]
 pub struct Watch {
+    symmetry: Symmetry,
     start: Sample,
     count: u64,
     energy: f64,
@@ -51,9 +87,10 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Begins with the sample at t = 0.
-    pub fn new(start: Sample) -> Self {
+    /// Begins with the sample of a model at t = 0.
+    pub fn new(model: &ArticulatedBody, start: Sample) -> Self {
         let mut watch = Self {
+            symmetry: Symmetry::of(model),
             start,
             count: 0,
             energy: 0.0,
@@ -71,10 +108,9 @@ impl Watch {
         let change = sample.energy - self.start.energy;
         self.count += 1;
         self.energy = self.energy.max(change.abs());
-        self.linear = self.linear.max((sample.linear - self.start.linear).norm());
-        self.angular = self
-            .angular
-            .max((sample.angular - self.start.angular).norm());
+        let (symmetry, start) = (&self.symmetry, &self.start);
+        self.linear = self.linear.max(symmetry.linear(start, sample));
+        self.angular = self.angular.max(symmetry.angular(start, sample));
         self.orthogonality = self.orthogonality.max(sample.orthogonality);
         self.trend.add(sample.t, change);
     }
@@ -99,19 +135,24 @@ impl Watch {
         relative(self.trend.slope(), self.start.energy)
     }
 
-    /// The largest deviation of the linear momentum, kg m/s.
+    /// Whether gravity acts.
+    pub fn has_weight(&self) -> bool {
+        self.symmetry.vertical.is_some()
+    }
+
+    /// The largest deviation of the linear momentum from its start, and what the weight has added, kg m/s.
     pub fn linear(&self) -> f64 {
         self.linear
     }
 
-    /// The largest deviation of the angular momentum, kg m²/s.
+    /// The largest deviation of the angular momentum, under gravity about the vertical, kg m²/s.
     pub fn angular(&self) -> f64 {
         self.angular
     }
 
     /// The same relative to the start.
     pub fn angular_relative(&self) -> Option<f64> {
-        relative(self.angular, self.start.angular.norm())
+        relative(self.angular, self.symmetry.kept(self.start.angular))
     }
 
     /// The largest orthogonality error.

@@ -28,6 +28,8 @@ pub struct Summary {
     pub energy_initial_joules: f64,
     pub energy_error_max_relative: Option<f64>,
     pub energy_slope_per_second: Option<f64>,
+    /// Then the linear momentum deviates from its start plus weight times time, and the angular one about the vertical.
+    pub gravity_acts: bool,
     pub linear_momentum_deviation_max: f64,
     pub angular_momentum_deviation_max: f64,
     pub angular_momentum_deviation_max_relative: Option<f64>,
@@ -97,6 +99,13 @@ impl Summary {
             self.angular_momentum_deviation_max,
         );
         let share = optional(self.angular_momentum_deviation_max_relative);
+        let (by_weight, about) = match self.gravity_acts {
+            true => (
+                " from its start plus weight times time",
+                ", about the vertical",
+            ),
+            false => ("", ""),
+        };
         vec![
             ("", String::new()),
             (
@@ -116,11 +125,11 @@ impl Summary {
             ),
             (
                 "linear momentum deviation, worst",
-                format!("{} kg m/s", number(linear)),
+                format!("{} kg m/s{by_weight}", number(linear)),
             ),
             (
                 "angular momentum deviation, worst",
-                format!("{} kg m^2/s (relative {share})", number(angular)),
+                format!("{} kg m^2/s (relative {share}){about}", number(angular)),
             ),
             (
                 "orthogonality error, worst",

@@ -169,6 +169,16 @@ impl<M: Mass> ArticulatedBody<M> {
         Ok(self)
     }
 
+    /// Gravity, m/s² in the reference frame, where it acts on a net mass.
+    pub fn gravity(&self) -> Option<Vec3> {
+        self.weight.as_ref().map(Weight::gravity)
+    }
+
+    /// The total weight less the buoyancy, N in the reference frame: the rate of the linear momentum. Zero without gravity.
+    pub fn net_weight(&self) -> Vec3 {
+        self.weight.as_ref().map_or(Vec3::zero(), Weight::force)
+    }
+
     /// The same model with its translation among the unknowns of a step, though it could be eliminated: to measure what that saves.
     pub fn keep_translation(mut self) -> Self {
         self.keeps_translation = true;

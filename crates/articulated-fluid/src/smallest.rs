@@ -209,7 +209,16 @@ impl Scene {
                     "bodies, joints and motion are symmetric under the plane normal to ({x:.6}, {y:.6}, {z:.6})"
                 )
             }
-            Err(refused) => refused.to_string(),
+            Err(refused) => {
+                let index = format!("(body {})", refused.body);
+                let name = self
+                    .bodies
+                    .get(refused.body)
+                    .map(|body| format!("({:?})", body.name));
+                refused
+                    .to_string()
+                    .replace(&index, &name.unwrap_or_default())
+            }
         };
         Reduction {
             name: "plane",

@@ -47,6 +47,11 @@ impl Weight {
         self.gravity.is_finite() && self.total.is_finite() && levers
     }
 
+    /// $\gamma$, m/s².
+    pub(crate) fn gravity(&self) -> Vec3 {
+        self.gravity
+    }
+
     /// Whether the whole floats: then nothing depends on where it is.
     pub(crate) fn is_neutral(&self) -> bool {
         self.total == 0.0

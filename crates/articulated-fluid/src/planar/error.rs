@@ -33,7 +33,7 @@ impl Display for NotPlanar {
         }
         write!(
             f,
-            " (body {body}), by {defect:.1e} of what is of its kind, where rounding makes at most 1e-12; the momenta change out of the plane by {torque:.1e} N m"
+            " (body {body}), by {defect:.1e} relative to the largest of its kind, where rounding makes at most 1e-12; the momenta change out of the plane by {torque:.1e} N m"
         )
     }
 }
