@@ -830,6 +830,7 @@ fn under_gravity_the_summary_judges_what_is_kept() {
     let scene = shipped("branching-robot");
     let summary = json(directory.path(), &["run", &scene, "--until", "2", "--json"]);
     assert_eq!(summary["gravity_acts"], true);
+    assert_eq!(summary["reductions"], serde_json::json!(["translation"]));
     let of = |key: &str| summary[key].as_f64().unwrap();
     // Momenta grow to 4e1 kg m/s in 2000 steps: their rounding is a random walk.
     assert!(of("linear_momentum_deviation_max") < 1e-11, "{summary}");
@@ -839,4 +840,13 @@ fn under_gravity_the_summary_judges_what_is_kept() {
     for words in ["plus weight times time", "about the vertical"] {
         assert!(text.contains(words), "{text}");
     }
+}
+
+#[test]
+fn a_dash_is_no_file() {
+    fails(
+        &["run", "--until", "1", "--out", "-"],
+        2,
+        &["stdout", "./-"],
+    );
 }

@@ -32,6 +32,10 @@ pub enum CliError {
     TooManySamples(#[from] TooManySamples),
     #[error("--out {} is the scene itself; give the CSV file another name", .0.display())]
     OutputIsScene(PathBuf),
+    #[error(
+        "--out -: stdout has the summary; give a file's name, or ./- for one that is called so"
+    )]
+    OutputIsDash,
     #[error("--out {}: {source}", path.display())]
     Output { path: PathBuf, source: OutputError },
     #[error(transparent)]
@@ -56,7 +60,8 @@ impl CliError {
             | Self::Model { .. }
             | Self::TooManySteps(_)
             | Self::TooManySamples(_)
-            | Self::OutputIsScene(_) => USAGE,
+            | Self::OutputIsScene(_)
+            | Self::OutputIsDash => USAGE,
             Self::Interrupted { signal, .. } => u8::try_from(SIGNALLED + signal).unwrap_or(FAILURE),
             _ => FAILURE,
         })

@@ -31,11 +31,11 @@ Examples:
   lgvi inspect boat.toml --json | jq -r '.reductions[] | select(.taken) | .name'
 
 Reductions:
-  translation   x leaves the unknowns: the linear momentum is constant
+  translation   x leaves the unknowns: the linear momentum is constant, or grows by the weight's impulse
   joints        one body alone has none
   weight        no gravity, or every body neutrally buoyant
   fluid         without one, or for spheres, masses are numbers instead of matrices
-  plane         a mirror plane keeps the motion in it: rotations in SO(2)
+  plane         one mirror plane through all mass centres keeps the motion in it: rotations in SO(2)
 lgvi run takes what is exact, and lgvi run --full takes none of it: the motion is the same.";
 
 /// What is told of a scene; units are in the names.
@@ -113,7 +113,12 @@ fn text(inspection: &Inspection) -> String {
             reduction.name,
             if reduction.taken { "taken" } else { "not" },
         );
-        let drops = format!("leaves out {}", reduction.drops);
+        let would = if reduction.taken {
+            "leaves"
+        } else {
+            "would leave"
+        };
+        let drops = format!("{would} out {}", reduction.drops);
         [[name, taken, &reduction.why], ["", "", &drops]].map(|row| row.map(str::to_owned))
     });
     print::columns(&head) + "\n" + &print::columns(&lines.collect::<Vec<_>>())

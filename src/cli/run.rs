@@ -100,6 +100,11 @@ A scene:
 {example}
 The keys of a scene:
 {keys}
+Nothing acts but weight and buoyancy: the first body floats free, every joint is a free ball joint, and no scene has a
+fixed base, a hinge, a motor, a spring or damping. Forces take the library. Under a net weight the bodies speed up, and
+the energy error grows with their speed: that of lgvi in proportion to step and time.
+A method's default step suits the motion of the built-in scene; a livelier one needs a shorter --step.
+
 Exit codes:
   0    done
   1    the run or a write failed; no CSV file is left, an old one is as it was
@@ -138,6 +143,9 @@ fn open(args: &Args, loaded: &Loaded) -> Result<Option<Table<Output>>, CliError>
     let Some(path) = &args.out else {
         return Ok(None);
     };
+    if path == Path::new("-") {
+        return Err(CliError::OutputIsDash);
+    }
     if args.scene.as_ref().is_some_and(|scene| same(scene, path)) {
         return Err(CliError::OutputIsScene(path.clone()));
     }
@@ -304,6 +312,10 @@ impl<'a> Run<'a> {
                 true => account.full_dimension,
                 false => account.unknowns,
             },
+            reductions: match args.full {
+                true => vec![],
+                false => account.taken().collect(),
+            },
             method: method.name(),
             method_description: method.description(),
             method_order: method.order(),
@@ -319,6 +331,7 @@ impl<'a> Run<'a> {
             sample_every_seconds: every_seconds,
             samples: watch.count(),
             energy_initial_joules: watch.initial_energy(),
+            energy_error_max_joules: watch.energy(),
             energy_error_max_relative: watch.energy_relative(),
             energy_slope_per_second: watch.energy_slope(),
             gravity_acts: watch.has_weight(),

@@ -11,6 +11,8 @@ pub struct Sample {
     pub t: f64,
     /// J.
     pub energy: f64,
+    /// Its kinetic part, J.
+    pub kinetic: f64,
     /// kg m/s.
     pub linear: Vec3,
     /// kg m²/s.
@@ -26,6 +28,7 @@ impl Sample {
         Some(Self {
             t: state.t,
             energy: kept.energy,
+            kinetic: kept.kinetic,
             linear: kept.linear,
             angular: kept.angular,
             orthogonality: model.orthogonality_error(&state.g),
@@ -80,6 +83,8 @@ pub struct Watch {
     start: Sample,
     count: u64,
     energy: f64,
+    /// The largest kinetic energy: unlike a potential, it does not depend on the origin.
+    kinetic: f64,
     linear: f64,
     angular: f64,
     orthogonality: f64,
@@ -94,6 +99,7 @@ impl Watch {
             start,
             count: 0,
             energy: 0.0,
+            kinetic: 0.0,
             linear: 0.0,
             angular: 0.0,
             orthogonality: 0.0,
@@ -108,6 +114,7 @@ impl Watch {
         let change = sample.energy - self.start.energy;
         self.count += 1;
         self.energy = self.energy.max(change.abs());
+        self.kinetic = self.kinetic.max(sample.kinetic);
         let (symmetry, start) = (&self.symmetry, &self.start);
         self.linear = self.linear.max(symmetry.linear(start, sample));
         self.angular = self.angular.max(symmetry.angular(start, sample));
@@ -125,14 +132,19 @@ impl Watch {
         self.start.energy
     }
 
-    /// The largest error of the energy relative to the start; `None` where the start is zero and the error is not.
+    /// The largest error of the energy, J.
+    pub fn energy(&self) -> f64 {
+        self.energy
+    }
+
+    /// The same relative to the largest kinetic energy; `None` where that is zero and the error is not.
     pub fn energy_relative(&self) -> Option<f64> {
-        relative(self.energy, self.start.energy)
+        relative(self.energy, self.kinetic)
     }
 
     /// The slope of the energy's relative error by least squares, 1/s.
     pub fn energy_slope(&self) -> Option<f64> {
-        relative(self.trend.slope(), self.start.energy)
+        relative(self.trend.slope(), self.kinetic)
     }
 
     /// Whether gravity acts.
@@ -152,7 +164,7 @@ impl Watch {
 
     /// The same relative to the start.
     pub fn angular_relative(&self) -> Option<f64> {
-        relative(self.angular, self.symmetry.kept(self.start.angular))
+        relative(self.angular, self.start.angular.norm())
     }
 
     /// The largest orthogonality error.

@@ -14,6 +14,8 @@ pub struct Summary {
     pub bodies: usize,
     pub group: String,
     pub unknowns: usize,
+    /// The reductions of `lgvi inspect` that were taken.
+    pub reductions: Vec<&'static str>,
     pub method: &'static str,
     pub method_description: String,
     pub method_order: u32,
@@ -26,6 +28,8 @@ pub struct Summary {
     pub sample_every_seconds: Option<f64>,
     pub samples: u64,
     pub energy_initial_joules: f64,
+    pub energy_error_max_joules: f64,
+    /// To the largest kinetic energy, as the slope.
     pub energy_error_max_relative: Option<f64>,
     pub energy_slope_per_second: Option<f64>,
     /// Then the linear momentum deviates from its start plus weight times time, and the angular one about the vertical.
@@ -67,6 +71,10 @@ impl Summary {
 
     fn run(&self) -> Vec<(&'static str, String)> {
         let mut rows = vec![];
+        let without = match self.reductions.join(", ") {
+            none if none.is_empty() => none,
+            some => format!(" (reductions: {some})"),
+        };
         if let Some(title) = &self.title {
             rows.push(("scene", one_line(title)));
         }
@@ -75,7 +83,7 @@ impl Summary {
             ("bodies", self.bodies.to_string()),
             (
                 "model",
-                format!("{}, {} unknowns a step", self.group, self.unknowns),
+                format!("{}, {} unknowns a step{without}", self.group, self.unknowns),
             ),
             ("method", self.method()),
             ("steps", self.steps.to_string()),
@@ -114,7 +122,11 @@ impl Summary {
             ),
             (
                 "energy error, worst",
-                format!("{} (relative)", optional(self.energy_error_max_relative)),
+                format!(
+                    "{} J (relative to the kinetic {})",
+                    number(self.energy_error_max_joules),
+                    optional(self.energy_error_max_relative)
+                ),
             ),
             (
                 "energy error, slope",

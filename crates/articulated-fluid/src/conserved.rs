@@ -11,6 +11,8 @@ use crate::{ArticulatedBody, Configuration, Joint, Mass, ModelError};
 pub struct Conserved {
     /// Total energy of bodies and fluid, J: the kinetic one, and the potential one under a weight.
     pub energy: f64,
+    /// The kinetic part of it, J: what an error of the energy is to be compared with, wherever the origin is.
+    pub kinetic: f64,
     /// Total linear momentum $\sum_i R_i M_i V_i$ from the velocities, kg m/s, reference frame: the carried $p_x$ proves nothing.
     pub linear: Vec3,
     /// Total angular momentum about the origin, $x \times p_x + \sum_i R_i p_i$, kg m²/s, reference frame.
@@ -52,8 +54,10 @@ impl<M: Mass> ArticulatedBody<M> {
             .zip(momenta)
             .map(|(r, p): (&SO3, _)| r.rotate(p.vec3()));
         let orbital = x.vec3().cross(px.vec3());
+        let kinetic = 0.5 * Configuration::pair(&state.mu, &xi);
         let conserved = Conserved {
-            energy: 0.5 * Configuration::pair(&state.mu, &xi) + self.potential(&state.g),
+            energy: kinetic + self.potential(&state.g),
+            kinetic,
             linear: self.legendre(state.t, &state.g, &xi).1.vec3(),
             angular: spins.fold(orbital, |sum, spin| sum + spin),
         };
@@ -61,6 +65,7 @@ impl<M: Mass> ArticulatedBody<M> {
             energy,
             linear,
             angular,
+            ..
         } = conserved;
         let checks = [
             (energy.is_finite(), "energy"),

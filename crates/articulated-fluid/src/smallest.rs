@@ -55,6 +55,14 @@ pub struct Reduction {
     pub why: String,
 }
 
+impl Account {
+    /// The names of the reductions that were taken.
+    pub fn taken(&self) -> impl Iterator<Item = &'static str> {
+        let taken = self.reductions.iter().filter(|reduction| reduction.taken);
+        taken.map(|reduction| reduction.name)
+    }
+}
+
 impl Scene {
     /// The smallest model that describes this scene exactly.
     ///
@@ -204,9 +212,10 @@ impl Scene {
     fn plane_reduction(&self, plane: &Result<Plane, NotPlanar>) -> Reduction {
         let why = match plane {
             Ok(plane) => {
-                let [x, y, z] = plane.normal().0;
+                // Adding zero takes the sign off a zero.
+                let [x, y, z] = plane.normal().0.map(|x| (1e6 * x).round() / 1e6 + 0.0);
                 format!(
-                    "bodies, joints and motion are symmetric under the plane normal to ({x:.6}, {y:.6}, {z:.6})"
+                    "bodies, joints and motion are symmetric under the plane normal to ({x}, {y}, {z})"
                 )
             }
             Err(refused) => {

@@ -2,6 +2,7 @@
 
 use core::fmt::{Display, Formatter, Result};
 
+use lie::Vec3;
 use thiserror::Error;
 
 /// No plane is a mirror of the model and its motion.
@@ -17,6 +18,10 @@ pub struct NotPlanar {
     pub body: usize,
     /// The largest part of a $\dot p_i$ out of the plane, $\dot\mu = \mathrm{ad}^\ast_\xi \mu + \tau$ at the state, N m.
     pub torque: f64,
+    /// The part of $\dot p_x$ out of the plane, N.
+    pub force: f64,
+    /// The plane's normal, of length 1, reference frame.
+    pub normal: Vec3,
 }
 
 impl Display for NotPlanar {
@@ -26,14 +31,19 @@ impl Display for NotPlanar {
             what,
             body,
             torque,
+            force,
+            normal,
         } = self;
-        write!(f, "no motion in a plane: {what}")?;
-        if *what == NotPlanarCause::State {
-            return Ok(());
-        }
+        let of = match what {
+            NotPlanarCause::State => return write!(f, "no motion in a plane: {what}"),
+            NotPlanarCause::VelocityOffPlane | NotPlanarCause::GravityOffPlane => String::new(),
+            _ => format!(" (body {body})"),
+        };
+        // Adding zero takes the sign off a zero.
+        let [x, y, z] = normal.0.map(|x| (1e6 * x).round() / 1e6 + 0.0);
         write!(
             f,
-            " (body {body}), by {defect:.1e} relative to the largest of its kind, where rounding makes at most 1e-12; the momenta change out of the plane by {torque:.1e} N m"
+            "no motion in a plane; nearest is the one normal to ({x}, {y}, {z}), but {what}{of}: {defect:.1e} relative to the largest of its kind, where rounding makes at most 1e-12; the momenta leave the plane at {torque:.1e} N m and {force:.1e} N"
         )
     }
 }

@@ -56,6 +56,8 @@ pub(super) fn normal<M: Mass>(
             what: worst.what,
             body: worst.body,
             torque: motion.torque(normal),
+            force: normal.dot(model.net_weight()).abs(),
+            normal,
         }),
         None => Err(not_a_state()),
     }
@@ -67,6 +69,8 @@ fn not_a_state() -> NotPlanar {
         what: NotPlanarCause::State,
         body: 0,
         torque: f64::NAN,
+        force: f64::NAN,
+        normal: Vec3::zero(),
     }
 }
 
