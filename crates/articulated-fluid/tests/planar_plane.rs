@@ -78,10 +78,14 @@ fn assert_refused(
             found.defect
         );
         assert!(found.torque > 0.0 && found.torque < 1e-2, "{found}");
-        assert!(
-            found.to_string().contains(&format!("body {body}")),
-            "{found}"
+        let whole = matches!(
+            cause,
+            NotPlanarCause::VelocityOffPlane | NotPlanarCause::GravityOffPlane
         );
+        let named = found.to_string().contains(&format!("(body {body})"));
+        assert_eq!(named, !whole, "{found}");
+        let off = cause == NotPlanarCause::GravityOffPlane;
+        assert_eq!(found.force > 1e-6, off, "{found}");
     }
 }
 
