@@ -4,10 +4,10 @@
 //! $F_i = A u - K \Omega_i + \varphi$ and $r_i = H \Omega_i - K^T u$ with the velocity $u$ of its joint. Solved for
 //! $\Omega_i$, the force on the joint is $F_i = M^\ast u + f^\ast$: a mass and a momentum, which its parent takes over.
 
-use core::ops::Add;
+use core::ops::{Add, Range};
 
 use dvi::{Derivatives, Inertia, State};
-use lie::{AlgebraOver, DualOver, Mat3, SO3, Scalar, Sym3, Vec3};
+use lie::{AlgebraOver, DualOver, Ldl3, Mat3, SO3, Scalar, Sym3, Vec3};
 
 use crate::model::Node;
 use crate::{ArticulatedBody, Configuration, Mass};
@@ -29,6 +29,12 @@ pub(crate) fn of_mut<'a, T>((first, rest): (&'a mut T, &'a mut [T]), i: usize) -
     if i == 0 { first } else { &mut rest[i - 1] }
 }
 
+/// The matrix whose rows are made of those of `a`.
+#[inline(always)]
+fn rows<S: Scalar>(a: &Mat3<S>, f: impl Fn(Vec3<S>) -> Vec3<S>) -> Mat3<S> {
+    Mat3([f(a.row(0)).0, f(a.row(1)).0, f(a.row(2)).0])
+}
+
 /// One body in the elimination, all in its own frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Link<S> {
@@ -38,8 +44,10 @@ pub(crate) struct Link<S> {
     pub(crate) mass: Sym3<S>,
     /// $K$, and once eliminated $X = K H^{-1}$.
     pub(crate) x: Mat3<S>,
-    /// $H$, and once eliminated $H^{-1}$.
-    pub(crate) j_inverse: Sym3<S>,
+    /// $H$.
+    h: Sym3<S>,
+    /// $H = L D L^T$, once eliminated.
+    pub(crate) ldl: Ldl3<S>,
     /// $\varphi$, and once eliminated $f^\ast = \varphi - X r$.
     pub(crate) force: Vec3<S>,
     /// $r$, and once eliminated $w = H^{-1} r$.
@@ -56,7 +64,7 @@ impl<S: Scalar> Link<S> {
     fn reset<M: Mass>(&mut self, node: &Node, mass: &M) {
         self.mass = Sym3::upper(&mass.matrix()).lift();
         self.x = node.k.lift();
-        self.j_inverse = node.j_joint.lift();
+        self.h = node.j_joint.lift();
     }
 
     /// A body without children, eliminated.
@@ -66,7 +74,8 @@ impl<S: Scalar> Link<S> {
             c: Mat3::identity(),
             mass: Sym3::zero(),
             x: Mat3::zero(),
-            j_inverse: Sym3::zero(),
+            h: Sym3::zero(),
+            ldl: Ldl3::identity(),
             force: zero,
             w: zero,
             omega: zero,
@@ -77,12 +86,15 @@ impl<S: Scalar> Link<S> {
         link
     }
 
+    /// With $Y = K L^{-T}$: $X = Y D^{-1} L^{-1}$ and $M^\ast = A - Y D^{-1} Y^T$, which cancels no more than it has to.
     #[inline(always)]
     fn eliminate(&mut self) {
-        let k = self.x;
-        self.j_inverse = self.j_inverse.inverse();
-        self.x = k * self.j_inverse.matrix();
-        self.mass = self.mass - Sym3::product(&self.x, &k);
+        let ldl = self.h.ldl();
+        let y = rows(&self.x, |row| ldl.forward(row));
+        let scaled = rows(&y, |row| ldl.scale(row));
+        self.x = rows(&scaled, |row| ldl.backward(row));
+        self.mass = self.mass - Sym3::product(&scaled, &y);
+        self.ldl = ldl;
     }
 
     /// Adds the child's mass $N = C M^\ast C^T$, at the lever $l$.
@@ -92,7 +104,7 @@ impl<S: Scalar> Link<S> {
         let nl = n.times_hat(lever);
         self.mass += n;
         self.x += nl;
-        self.j_inverse = self.j_inverse - Sym3::upper(&(lever.hat() * nl));
+        self.h = self.h - Sym3::upper(&(lever.hat() * nl));
     }
 
     /// Adds the child's force $C f^\ast$, at the lever $l$.
@@ -106,7 +118,7 @@ impl<S: Scalar> Link<S> {
     #[inline(always)]
     fn eliminate_force(&mut self) {
         self.force -= self.x * self.w;
-        self.w = self.j_inverse * self.w;
+        self.w = self.ldl.solve(self.w);
     }
 
     /// $\Omega_i$ and $V_i$ from the velocity of the joint.
@@ -127,8 +139,8 @@ impl<S: Scalar> Link<S> {
 #[derive(Clone, Debug)]
 pub struct Elimination<S = f64> {
     links: Vec<Link<S>>,
-    /// $M_0^{\ast -1}$.
-    base_inverse: Sym3<S>,
+    /// $M_0^\ast$.
+    base: Ldl3<S>,
 }
 
 impl<S: Scalar> Elimination<S> {
@@ -136,7 +148,7 @@ impl<S: Scalar> Elimination<S> {
         let bodies = tree.nodes.iter().zip(&tree.masses);
         Self {
             links: bodies.map(|(node, mass)| Link::alone(node, mass)).collect(),
-            base_inverse: Sym3::zero(),
+            base: Ldl3::identity(),
         }
     }
 
@@ -160,7 +172,7 @@ impl<S: Scalar> Elimination<S> {
         if !tree.nodes[0].is_leaf {
             base.eliminate();
         }
-        self.base_inverse = base.mass.inverse();
+        self.base = base.mass.ldl();
     }
 
     /// Eliminates the momenta from the leaves on, and finds the first body's velocity.
@@ -184,7 +196,7 @@ impl<S: Scalar> Elimination<S> {
         }
         let base = &mut self.links[0];
         base.eliminate_force();
-        let v = self.base_inverse * (r0.inverse_rotate(px.vec3()) - base.force);
+        let v = self.base.solve(r0.inverse_rotate(px.vec3()) - base.force);
         base.advance(v, Vec3::zero());
     }
 
@@ -245,8 +257,8 @@ impl<S: Scalar> Elimination<S> {
 pub struct Factor {
     r0: SO3,
     elimination: Elimination<f64>,
-    /// $\left(\sum_i R_i M_i R_i^T\right)^{-1}$: (31) solved for $\Delta x$.
-    total_mass_inverse: Sym3,
+    /// $\sum_i R_i M_i R_i^T$, to solve (31) for $\Delta x$.
+    total_mass: Ldl3,
 }
 
 impl<M: Mass> Inertia for ArticulatedBody<M> {
@@ -256,7 +268,7 @@ impl<M: Mass> Inertia for ArticulatedBody<M> {
         Factor {
             r0: SO3::identity(),
             elimination: Elimination::new(self),
-            total_mass_inverse: Sym3::zero(),
+            total_mass: Ldl3::identity(),
         }
     }
 
@@ -266,13 +278,18 @@ impl<M: Mass> Inertia for ArticulatedBody<M> {
         factor.elimination.factorise(self, (r0, r));
         let masses = self.masses.iter().enumerate();
         let turned = masses.map(|(i, mass)| mass.turned(of((r0, r), i).matrix()));
-        factor.total_mass_inverse = turned.fold(Sym3::zero(), Sym3::add).inverse();
+        factor.total_mass = turned.fold(Sym3::zero(), Sym3::add).ldl();
     }
 
     #[inline(always)]
     fn solve(&self, factor: &mut Factor, mu: &Momentum, xi: &mut Velocity) {
         factor.elimination.begin(self, &factor.r0, mu);
         factor.elimination.finish(self, &factor.r0, xi);
+    }
+
+    /// The displacement $\Delta x$, under a weight too: its impulse is constant.
+    fn eliminated(&self) -> Range<usize> {
+        if self.keeps_translation { 0..0 } else { 3..6 }
     }
 
     /// (31) $= p_x$, and the impulse of the weight with it, solved for $\Delta x$.
@@ -293,7 +310,7 @@ impl<M: Mass> Inertia for ArticulatedBody<M> {
             if let Some(weight) = &self.weight {
                 rest += weight.force::<f64>() * (h * h);
             }
-            let solved = factor.total_mass_inverse * rest;
+            let solved = factor.total_mass.solve(rest);
             (f.1, c.1) = (solved.into(), solved.into());
         }
         self.collect(g, f, h, out);

@@ -1,7 +1,7 @@
 //! From a scene to a model and its initial state.
 
 use dvi::{Lagrangian, State};
-use lie::{LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
+use lie::{LieGroup, Mat3, Rn, SO3, Sym3, Tangent, Vec3, VectorSpace};
 
 use crate::scene::{SceneBody, SceneJoint, StartVelocity};
 use crate::{ArticulatedBody, Body, Configuration, Joint, ModelError, Scene};
@@ -67,11 +67,11 @@ impl Scene {
         match self.velocity {
             StartVelocity::Given(velocity) => xi.1 = Tangent(velocity),
             StartVelocity::ZeroMomentum => {
-                let inverse = self.total_mass(g).inverse();
+                let total = Sym3::upper(&self.total_mass(g)).ldl();
                 // The second time for the rounding of the first.
                 for _ in 0..2 {
                     let linear = Lagrangian::legendre(model, 0.0, g, &xi).1.vec3();
-                    xi.1 = Tangent((xi.1.vec3() - inverse * linear).0);
+                    xi.1 = Tangent((xi.1.vec3() - total.solve(linear)).0);
                 }
             }
         }

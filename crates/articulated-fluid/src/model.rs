@@ -248,13 +248,10 @@ impl Node {
 
     fn is_finite(&self, mass: &Mat3) -> bool {
         let alone = Link::<f64>::alone(self, mass);
-        let derived = [
-            self.jd,
-            alone.x,
-            alone.mass.matrix(),
-            alone.j_inverse.matrix(),
-        ];
-        derived.iter().all(|a| a.frobenius().is_finite()) && self.lever.is_finite()
+        let derived = [self.jd, alone.x, alone.mass.matrix()];
+        let turn = alone.ldl.solve(Vec3([1.0; 3]));
+        let solves = turn.is_finite() && turn != Vec3::zero();
+        solves && derived.iter().all(|a| a.frobenius().is_finite()) && self.lever.is_finite()
     }
 }
 

@@ -32,7 +32,7 @@ pub struct Account {
     pub group: String,
     /// Its dimension.
     pub dimension: usize,
-    /// The unknowns of a step's equations.
+    /// The unknowns of the equations of a step of the discrete Lagrangian (22).
     pub unknowns: usize,
     /// The group of the scene without any reduction.
     pub full_group: String,
@@ -92,13 +92,13 @@ impl Scene {
     pub fn smallest(&self) -> Result<Smallest, ModelError> {
         let (model, state) = (self.model()?, self.initial_state()?);
         let plane = Plane::find(&model, &state);
-        let mut reductions = vec![
+        let reductions = vec![
             self.translation(),
             self.joint_reduction(),
             self.weight_reduction(),
-            self.fluid_reduction(),
+            self.fluid_reduction(plane.is_ok()),
+            self.plane_reduction(&plane),
         ];
-        reductions.push(self.plane_reduction(&plane));
         let bodies = self.bodies.len();
         let full = space(bodies);
         let (model, (group, dimension)) = match (plane, model.isotropic()) {
@@ -187,7 +187,7 @@ impl Scene {
         }
     }
 
-    fn fluid_reduction(&self) -> Reduction {
+    fn fluid_reduction(&self, in_plane: bool) -> Reduction {
         let worst = self
             .bodies
             .iter()
@@ -198,6 +198,7 @@ impl Scene {
                 false,
                 format!("the mass of {name:?} differs by direction, by {defect:.3e} of it"),
             ),
+            _ if in_plane => (false, "in a plane it would save nothing".to_owned()),
             _ => (true, "every mass is the same in all directions".to_owned()),
         };
         Reduction {

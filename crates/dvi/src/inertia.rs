@@ -1,5 +1,7 @@
 //! Quasi-Newton with the model's own inertia.
 
+use core::ops::Range;
+
 use lie::{LieGroup, Retraction, VectorSpace};
 
 use crate::solver::{Algebra, Dual, StepSolver};
@@ -24,11 +26,18 @@ pub trait Inertia: DiscreteLagrangian {
         xi: &mut <Self::Group as LieGroup>::Algebra,
     );
 
-    /// The [derivatives](DiscreteLagrangian::derivatives) of a step from `state`, where the [cyclic](DiscreteLagrangian::cyclic)
-    /// coordinates of `f`, and the same numbers in its coordinates `c`, are first set so that $\mathbf D_f L_d = \mu$ holds in
-    /// them, for the other coordinates of `f` as given. One method, since both share most of their terms.
+    /// The coordinates that [`eliminate`](Self::eliminate) solves for: the cyclic ones, and others whose $\mathbf D_f L_d$ is linear in
+    /// them and whose $\mathbf D_g L_d$ does not depend on `f`.
+    fn eliminated(&self) -> Range<usize> {
+        self.cyclic()
+    }
+
+    /// The [derivatives](DiscreteLagrangian::derivatives) of a step from `state`, where the [eliminated](Self::eliminated)
+    /// coordinates of `f`, and the same numbers in its coordinates `c`, are first set so that
+    /// $\mathbf D_f L_d = \mu + \mathbf D_g L_d$ holds in them, for the other coordinates of `f` as given. One method, since both
+    /// share most of their terms.
     ///
-    /// A model with cyclic coordinates that offers its inertia must implement it.
+    /// A model with such coordinates must implement it.
     #[inline(always)]
     fn eliminate(
         &self,
@@ -48,6 +57,9 @@ impl<L: Inertia> Inertia for &L {
 
     fn factor(&self) -> L::Factor {
         L::factor(self)
+    }
+    fn eliminated(&self) -> Range<usize> {
+        L::eliminated(self)
     }
     #[inline(always)]
     fn factorise(&self, g: &L::Group, factor: &mut L::Factor) {
@@ -96,6 +108,14 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
             exact: None,
             takes_exact: false,
         }
+    }
+
+    fn forget(&mut self) {
+        self.takes_exact = false;
+    }
+
+    fn exact(&self, lagrangian: &L) -> Range<usize> {
+        lagrangian.eliminated()
     }
 
     fn renew<R: Retraction>(

@@ -53,6 +53,12 @@ pub trait StepSolver<L: DiscreteLagrangian> {
     /// The correction $\delta$ that the linearised residual asks for; `c - delta` is the next iterate.
     fn solve(&mut self, lagrangian: &L, residual: &Dual<L>, delta: &mut Algebra<L>);
 
+    /// The coordinates whose equation [`derivatives`](Self::derivatives) or [`solve_cyclic`](Self::solve_cyclic) solves to rounding: the
+    /// others are judged without them, since they may have another unit and be larger by far.
+    fn exact(&self, lagrangian: &L) -> Range<usize> {
+        lagrangian.cyclic()
+    }
+
     /// The correction of the cyclic coordinates alone, zero elsewhere; false where [`derivatives`](Self::derivatives) has solved them.
     fn solve_cyclic(
         &mut self,

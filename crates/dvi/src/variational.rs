@@ -7,7 +7,7 @@ use lie::{Cayley, LieGroup, Retraction, VectorSpace};
 use crate::balance::Balance;
 use crate::newton::is_degenerate;
 use crate::numbers::relative;
-use crate::solver::{Algebra, StepSolver};
+use crate::solver::{Algebra, Dual, StepSolver};
 use crate::variation::Linearised;
 use crate::warm_start::WarmStart;
 use crate::{
@@ -23,6 +23,8 @@ const FEW: f64 = 12.0;
 const MAX_ITERATIONS: u32 = 60;
 /// A residual below this is one that only rounding keeps from the tolerance.
 const ROUNDING: f64 = 1e-12;
+/// A residual that shrinks by less than this factor, in one iteration and in two, stands.
+const STANDS: f64 = 0.9;
 /// Iterations that bring the cyclic equations from the tolerance to rounding.
 const CYCLIC_ITERATIONS: u32 = 3;
 /// Steps between corrections of the rounding that moves the configuration off its group.
@@ -57,6 +59,8 @@ where
 struct Work<L: DiscreteLagrangian, M> {
     solver: M,
     balance: Balance<L::Group, f64>,
+    /// What a norm is taken of.
+    judged: Dual<L>,
     warm: WarmStart,
     c: Algebra<L>,
     delta: Algebra<L>,
@@ -70,6 +74,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         Self {
             solver: M::allocate(lagrangian, g),
             balance: Balance::new(g),
+            judged: g.zero_dual(),
             warm: WarmStart::new(c.dim()),
             coordinates: vec![0.0; c.dim()],
             delta: c.clone(),
@@ -267,19 +272,18 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         } else {
             ROUNDING
         };
-        let size = norm(&state.mu);
-        if !size.is_finite() {
+        if !state.mu.max_magnitude().is_finite() {
             return Err(StepError::NotFinite { step, t, h });
         }
         work.solver.begin(lagrangian, state, h);
         let warm = work.warm.guess(h, &mut work.coordinates);
         work.c.read(&work.coordinates);
-        let mut solved = work.iterate::<R>(lagrangian, (state, h), size, (tolerance, floor));
+        let mut solved = work.iterate::<R>(lagrangian, (state, h), (tolerance, floor));
         if warm && !solved.converged {
             work.forget();
             work.c.set_zero();
             let before = solved.report;
-            solved = work.iterate::<R>(lagrangian, (state, h), size, (tolerance, floor));
+            solved = work.iterate::<R>(lagrangian, (state, h), (tolerance, floor));
             solved.report.iterations += before.iterations;
         }
         if !solved.converged {
@@ -341,35 +345,27 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         self.solver.forget();
     }
 
-    /// Iterates from the coordinates in `c` until the residual is within the tolerance, or stands below the floor; `size` is
-    /// that of the momentum.
+    /// Iterates from the coordinates in `c` until the residual is within the tolerance, or stands below the floor.
     fn iterate<R: Retraction>(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
-        size: f64,
         (tolerance, floor): (f64, f64),
     ) -> Solved {
-        let (mut best, mut scale) = (f64::INFINITY, 0.0);
-        let [mut last, mut before] = [f64::INFINITY; 2];
+        let [mut best, mut last, mut before] = [f64::INFINITY; 3];
         for iterations in 1..=MAX_ITERATIONS {
-            let mut residual = self.evaluate::<R>(lagrangian, state, h);
-            if iterations == 1 {
-                // A force may exceed the momentum by far.
-                scale = size.max(norm(&self.balance.transported));
-            }
-            residual = relative(residual, scale);
+            let residual = self.evaluate::<R>(lagrangian, state, h);
             // Over two iterations: the contraction's eigenvalues are complex, and single ones jump.
             let slow = match before.is_finite() {
                 true => residual > M::SLOW * last && residual > M::SLOW * M::SLOW * before,
                 false => residual > last,
             };
-            let stands = slow && residual < floor;
+            let stands = residual < floor && residual > STANDS * last.min(before);
             if residual <= tolerance || stands {
                 let more = self.finish_cyclic::<R>(lagrangian, state, h);
                 // What that has moved may be just above the tolerance again: then iterate on.
-                residual = relative(norm(&self.balance.residual), scale);
-                if residual <= tolerance || stands {
+                let residual = self.residual(lagrangian, &state.mu);
+                if residual <= tolerance || (stands && residual < floor) {
                     let report = StepReport {
                         iterations: iterations + more,
                         residual,
@@ -412,7 +408,23 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         }
     }
 
-    /// Evaluates the balance at `c`; the residual's norm.
+    /// The residual's norm relative to the momentum's before or after, whichever is larger: a force may exceed the first by far.
+    ///
+    /// Without the coordinates that are solved exactly: they may have another unit, and be larger by far.
+    #[inline(always)]
+    fn residual(&mut self, lagrangian: &L, mu: &Dual<L>) -> f64 {
+        let exact = self.solver.exact(lagrangian);
+        let (judged, balance) = (&mut self.judged, &self.balance);
+        let mut size = |x: &Dual<L>| {
+            judged.copy_from(x);
+            exact.clone().for_each(|i| judged.set(i, 0.0));
+            norm(judged)
+        };
+        let scale = size(mu).max(size(&balance.transported));
+        relative(size(&balance.residual), scale)
+    }
+
+    /// Evaluates the balance at `c`; the residual relative to the momentum.
     #[inline(always)]
     fn evaluate<R: Retraction>(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) -> f64 {
         self.balance.retract::<R>(&self.c);
@@ -420,7 +432,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         self.solver
             .derivatives(lagrangian, (state, h), f, &mut self.c, derivatives);
         self.balance.transport(&state.mu);
-        norm(&self.balance.residual)
+        self.residual(lagrangian, &state.mu)
     }
 
     /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance.

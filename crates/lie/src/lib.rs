@@ -108,6 +108,6 @@ pub use se2::SE2;
 pub use se3::SE3;
 pub use so2::SO2;
 pub use so3::{Displacement, SO3};
-pub use symmetric::Sym3;
+pub use symmetric::{Ldl3, Sym3};
 pub use vector::Vec3;
 pub use vector_space::{Cotangent, Tangent, VectorSpace};

@@ -10,7 +10,7 @@ use crate::{Mat3, Scalar, Vec3};
 /// use lie::{Mat3, Sym3, Vec3};
 ///
 /// let a = Sym3([4.0, 1.0, 0.0, 3.0, 0.0, 2.0]);
-/// let x = a.inverse() * (a * Vec3([1.0, 2.0, 3.0]));
+/// let x = a.ldl().solve(a * Vec3([1.0, 2.0, 3.0]));
 /// assert!((x - Vec3([1.0, 2.0, 3.0])).norm() < 1e-15);
 /// assert_eq!(a.turned(&Mat3::identity()), a);
 /// ```
@@ -59,20 +59,22 @@ impl<S: Scalar> Sym3<S> {
         Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     }
 
-    /// $A^{-1}$, by the adjugate; of a singular matrix, not finite.
+    /// The factorisation $A = L D L^T$ of a positive definite matrix; of a singular one, not finite.
+    ///
+    /// Backward stable without square roots: unlike the adjugate, it keeps digits where the eigenvalues are far apart.
     #[inline(always)]
-    pub fn inverse(&self) -> Self {
+    pub fn ldl(&self) -> Ldl3<S> {
         let [xx, xy, xz, yy, yz, zz] = self.0;
-        let (a, b, c) = (yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
-        let scale = S::one() / (xx * a + xy * b + xz * c);
-        Self([
-            a * scale,
-            b * scale,
-            c * scale,
-            (xx * zz - xz * xz) * scale,
-            (xy * xz - xx * yz) * scale,
-            (xx * yy - xy * xy) * scale,
-        ])
+        let x = S::one() / xx;
+        let (yx, zx) = (xy * x, xz * x);
+        let y = S::one() / (yy - yx * xy);
+        let rest = yz - zx * xy;
+        let zy = rest * y;
+        let z = S::one() / (zz - zx * xz - zy * rest);
+        Ldl3 {
+            lower: [yx, zx, zy],
+            pivots: Vec3([x, y, z]),
+        }
     }
 
     /// $C A C^T$: the matrix in the frame that $C$ leads to.
@@ -90,6 +92,55 @@ impl<S: Scalar> Sym3<S> {
             a.row(1).cross(x).0,
             a.row(2).cross(x).0,
         ])
+    }
+}
+
+/// The factors $L$, with ones on its diagonal, and $D^{-1}$ of $A = L D L^T$.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ldl3<S = f64> {
+    /// $l_{21}, l_{31}, l_{32}$.
+    lower: [S; 3],
+    /// The diagonal of $D^{-1}$.
+    pivots: Vec3<S>,
+}
+
+impl<S: Scalar> Ldl3<S> {
+    /// The factors of the identity.
+    #[inline(always)]
+    pub fn identity() -> Self {
+        Self {
+            lower: [S::zero(); 3],
+            pivots: Vec3([S::one(); 3]),
+        }
+    }
+
+    /// $L^{-1} x$.
+    #[inline(always)]
+    pub fn forward(&self, x: Vec3<S>) -> Vec3<S> {
+        let [yx, zx, zy] = self.lower;
+        let y = x[1] - yx * x[0];
+        Vec3([x[0], y, x[2] - zx * x[0] - zy * y])
+    }
+
+    /// $D^{-1} x$.
+    #[inline(always)]
+    pub fn scale(&self, x: Vec3<S>) -> Vec3<S> {
+        let d = self.pivots;
+        Vec3([x[0] * d[0], x[1] * d[1], x[2] * d[2]])
+    }
+
+    /// $L^{-T} x$.
+    #[inline(always)]
+    pub fn backward(&self, x: Vec3<S>) -> Vec3<S> {
+        let [yx, zx, zy] = self.lower;
+        let y = x[1] - zy * x[2];
+        Vec3([x[0] - yx * y - zx * x[2], y, x[2]])
+    }
+
+    /// $A^{-1} x$.
+    #[inline(always)]
+    pub fn solve(&self, x: Vec3<S>) -> Vec3<S> {
+        self.backward(self.scale(self.forward(x)))
     }
 }
 

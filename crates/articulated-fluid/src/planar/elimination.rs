@@ -4,6 +4,8 @@
 //! the velocity $u$ of its joint, a vector $K$ and a number $H$. Solved for $\Omega_i$, the force on the joint is
 //! $F_i = M^\ast u + f^\ast$: a mass and a momentum, which its parent takes over.
 
+use core::ops::Range;
+
 use dvi::{Derivatives, Inertia, State};
 use lie::{AlgebraOver, DualOver, LieGroup, SO2, Scalar};
 
@@ -244,6 +246,11 @@ impl Inertia for PlanarBody {
     fn solve(&self, factor: &mut Factor, mu: &Momentum, xi: &mut Velocity) {
         factor.elimination.begin(self, &factor.r0, mu);
         factor.elimination.finish(self, &factor.r0, xi);
+    }
+
+    /// The displacement $\Delta x$, under a weight too: its impulse is constant.
+    fn eliminated(&self) -> Range<usize> {
+        if self.keeps_translation { 0..0 } else { 1..3 }
     }
 
     /// (31) $= p_x$, and the impulse of the weight with it, solved for $\Delta x$.
