@@ -163,6 +163,39 @@ fn bodies_without_a_preferred_direction_at_rest_have_a_plane() {
     }
 }
 
+/// Three bodies pinned by their centres to a float that carries them: their weights balance, but for rounding.
+#[test]
+fn weights_that_balance_have_no_part_along_the_normal() {
+    let body = Body {
+        mass: Mat3::diagonal([1.0; 3]),
+        inertia: Mat3::diagonal([0.1, 0.4, 0.45]),
+    };
+    let pin = |(i, x): (usize, f64)| Joint {
+        parent: 0,
+        child: i + 1,
+        at_parent: Vec3([x, 0.0, 0.0]),
+        at_child: Vec3::zero(),
+    };
+    let pinned = |xs: [f64; 3]| {
+        let joints: Vec<Joint> = xs.into_iter().enumerate().map(pin).collect();
+        let model = ArticulatedBody::new(&[body; 4], &joints).expect("a model");
+        let model = model
+            .with_gravity(Vec3([0.0, 0.0, -9.81]), &[-3.0, 1.0, 1.0, 1.0])
+            .expect("a weight");
+        let spin = |rate: f64| Tangent([0.0, 0.0, rate]);
+        let xi = (
+            spin(1.0),
+            Tangent::zero(),
+            (0..3).map(|_| spin(2.0)).collect(),
+        );
+        Plane::find(&model, &model.state(0.0, model.aligned(), &xi))
+    };
+    let plane = pinned([0.3, -0.1, -0.2]).expect("a plane");
+    assert_eq!(plane.normal(), Vec3([0.0, 0.0, 1.0]));
+    let off = pinned([0.3, -0.1, -0.2 + 1e-9]).expect_err("no balance");
+    assert_eq!(off.what, NotPlanarCause::GravityOffPlane);
+}
+
 #[test]
 fn a_state_of_another_model_and_one_not_finite_are_refused() {
     let (model, state) = (fish().model(), fish().state());
