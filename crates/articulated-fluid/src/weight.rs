@@ -71,6 +71,12 @@ impl Weight {
         self.total == 0.0
     }
 
+    /// Whether it does nothing anywhere: neither a force nor a torque.
+    pub(crate) fn is_balanced(&self) -> bool {
+        let levers = self.levers.iter().all(|s| *s == Vec3::zero());
+        levers && self.is_neutral()
+    }
+
     /// $w_0 \gamma$, N, reference frame.
     #[inline(always)]
     pub(crate) fn force<S: Scalar>(&self) -> Vec3<S> {

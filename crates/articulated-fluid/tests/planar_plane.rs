@@ -163,6 +163,38 @@ fn bodies_without_a_preferred_direction_at_rest_have_a_plane() {
     }
 }
 
+/// A chain along its first axis at rest, the vertical plane in which it falls at 30 degrees about z.
+#[test]
+fn the_vertical_plane_of_a_chain_released_from_rest_is_found() {
+    let azimuth = core::f64::consts::FRAC_PI_6;
+    let tilted = SO3::exp(&Tangent([0.0, 0.3, 0.0]));
+    let attitude = SO3::exp(&Tangent([0.0, 0.0, azimuth])).compose(&tilted);
+    let expected = Vec3([-azimuth.sin(), azimuth.cos(), 0.0]);
+    let link = |i: usize| Joint {
+        parent: i,
+        child: i + 1,
+        at_parent: Vec3([1.0, 0.0, 0.0]),
+        at_child: Vec3([-1.0, 0.0, 0.0]),
+    };
+    for inertia in [[0.1; 3], [0.1, 0.4, 0.4], [0.1, 0.4, 0.45]] {
+        for net in [[-2.0, 1.0, 1.0], [0.1, 1.0, 1.0]] {
+            let body = Body {
+                mass: Mat3::diagonal([1.0; 3]),
+                inertia: Mat3::diagonal(inertia),
+            };
+            let model = ArticulatedBody::new(&[body; 3], &[link(0), link(1)]).expect("a model");
+            let model = model.with_gravity(Vec3([0.0, 0.0, -9.81]), &net);
+            let model = model.expect("a weight");
+            let mut g = model.aligned();
+            g.0 = attitude;
+            g.2.iter_mut().for_each(|r| *r = attitude);
+            let mu = g.zero_dual();
+            let plane = Plane::find(&model, &State { t: 0.0, g, mu }).expect("a plane");
+            assert!(plane.normal().cross(expected).norm() < 1e-14);
+        }
+    }
+}
+
 /// Three bodies pinned by their centres to a float that carries them: their weights balance, but for rounding.
 #[test]
 fn weights_that_balance_have_no_part_along_the_normal() {

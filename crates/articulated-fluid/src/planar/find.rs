@@ -3,7 +3,7 @@
 use dvi::{ContinuousSystem, State};
 use lie::{LieGroup, Mat3, SO3, Vec3, VectorSpace};
 
-use super::axes::{normal_to, principal_axes, unit};
+use super::axes::{longest, normal_to, principal_axes, unit};
 use super::plane::first_and_rest;
 use super::{NotPlanar, NotPlanarCause};
 use crate::elimination::{Momentum, Velocity, of};
@@ -124,23 +124,28 @@ impl<'a, M: Mass> Motion<'a, M> {
     }
 
     /// Unit vectors that may be the normal, in the reference frame: the coordinate axes, the angular velocity of the fastest
-    /// body, what is normal to the levers and the velocity, and the principal axes of the first body and of the whole.
+    /// body, what is normal to what lies in the plane, and the principal axes of the first body and of the whole.
     fn candidates(&self) -> Vec<Vec3> {
         let bodies = 0..self.model.nodes.len();
         let faster = |a: &usize, b: &usize| self.rate(*a).norm().total_cmp(&self.rate(*b).norm());
         let fastest = bodies.max_by(faster).unwrap_or(0);
         let spin = self.attitude(fastest).rotate(self.rate(fastest));
         let first = self.attitude(0).matrix().conjugate(self.model.nodes[0].j);
-        let levers = self.levers();
+        let (levers, velocity, gravity) = (self.levers(), self.velocity(), self.gravity());
+        let longest = longest(&levers);
+        let in_plane = [levers, vec![velocity, gravity]].concat();
         let [x, y, z] = Mat3::identity().0.map(Vec3);
-        let mut candidates = vec![z, y, x, spin, normal_to(&levers)];
+        let mut candidates = vec![z, y, x, spin, normal_to(&in_plane)];
+        // These whatever their lengths: a velocity is short next to a fast spin.
+        candidates.extend([gravity.cross(velocity), velocity.cross(longest)]);
+        candidates.push(longest.cross(gravity));
         candidates.extend(principal_axes(first));
-        candidates.extend(principal_axes(self.shape(&levers)));
+        candidates.extend(principal_axes(self.shape(&in_plane)));
         candidates.retain(|n| n.is_finite() && n.norm() > 0.0);
         candidates.into_iter().map(unit).collect()
     }
 
-    /// What lies in the plane, relative to its size, in the reference frame: the joints from the mass centres, the velocity.
+    /// The joints from the mass centres, relative to the length, in the reference frame.
     fn levers(&self) -> Vec<Vec3> {
         let points = self.model.nodes.iter().enumerate().flat_map(|(i, node)| {
             let on = self.attitude(node.parent);
@@ -150,20 +155,32 @@ impl<'a, M: Mass> Motion<'a, M> {
             ];
             points.map(|x| x * (1.0 / self.length))
         });
-        let velocity = self.xi.1.vec3() * (1.0 / self.speed.max(f64::MIN_POSITIVE));
-        points.chain([velocity]).collect()
+        points.collect()
     }
 
-    /// A symmetric matrix with the normal as a principal axis, as it is one of each term: masses, inertias, levers $x x^T$.
-    fn shape(&self, levers: &[Vec3]) -> Mat3 {
+    /// The first body's, relative to the speed.
+    fn velocity(&self) -> Vec3 {
+        self.xi.1.vec3() * (1.0 / self.speed.max(f64::MIN_POSITIVE))
+    }
+
+    /// Of length 1; zero where it does nothing.
+    fn gravity(&self) -> Vec3 {
+        let weight = self.model.weight.as_ref();
+        let acts = weight.filter(|weight| !weight.is_balanced());
+        let gravity = acts.map_or(Vec3::zero(), |weight| weight.gravity());
+        gravity * (1.0 / gravity.norm().max(f64::MIN_POSITIVE))
+    }
+
+    /// A symmetric matrix with the normal as a principal axis, as it is one of each term: masses, inertias, $x x^T$ in the plane.
+    fn shape(&self, in_plane: &[Vec3]) -> Mat3 {
         let bodies = self.model.masses.iter().zip(&self.model.nodes).enumerate();
         let bodies = bodies.map(|(i, (mass, node))| {
             let (mass, inertia) = (mass.matrix(), node.j);
             let sum = mass * (1.0 / mass.trace()) + inertia * (1.0 / inertia.trace());
             self.attitude(i).matrix().conjugate(sum)
         });
-        let levers = levers.iter().map(|x| x.outer(*x));
-        bodies.chain(levers).fold(Mat3::zero(), |sum, a| sum + a)
+        let in_plane = in_plane.iter().map(|x| x.outer(*x));
+        bodies.chain(in_plane).fold(Mat3::zero(), |sum, a| sum + a)
     }
 
     /// How many quantities violate the plane with this normal, and the worst of all.
