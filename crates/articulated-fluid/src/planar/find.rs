@@ -7,16 +7,38 @@ use super::axes::{longest, normal_to, principal_axes, unit};
 use super::plane::first_and_rest;
 use super::{NotPlanar, NotPlanarCause};
 use crate::elimination::{Momentum, Velocity, of};
+use crate::model::Node;
 use crate::{ArticulatedBody, Configuration, Mass};
 
 /// Violations up to this are those of rounding.
 const ROUNDING: f64 = 1e-12;
+
+/// What a rate that is all rounding may be relative to, as part of the rate that the momenta would give.
+const ROUNDED_RATE: f64 = 1e-2;
 
 /// A normal that was found.
 pub(super) struct Found {
     pub(super) normal: Vec3,
     /// The size of the bodies, m.
     pub(super) length: f64,
+}
+
+/// How large a body is.
+#[derive(Clone, Copy)]
+struct Sizes {
+    /// The radius of gyration, m.
+    gyration: f64,
+    /// The longest lever or that radius, m.
+    extent: f64,
+    /// The mass of the body and of those on it, relative to its own.
+    carried: f64,
+}
+
+impl Sizes {
+    /// The rate that belongs to the momentum $m v d$ of what the body carries, relative to $v$: $m d / m_i k_i^2$, 1/m.
+    fn rate(&self) -> f64 {
+        self.carried * (self.extent / self.gyration) / self.gyration
+    }
 }
 
 /// How far a quantity is from what a plane asks of it, relative to the size of its kind.
@@ -80,10 +102,13 @@ struct Motion<'a, M> {
     state: &'a State<Configuration>,
     xi: Velocity,
     tau: Momentum,
+    sizes: Vec<Sizes>,
     /// The longest lever or radius of gyration, m.
     length: f64,
-    /// The largest velocity, of the first body or of turning at that length, m/s.
+    /// The largest velocity, of the first body or of a joint or a part of a body about its mass centre, m/s.
     speed: f64,
+    /// The largest angular rate, rad/s; not less than what rounding of the momenta makes of none.
+    rate: f64,
 }
 
 impl<'a, M: Mass> Motion<'a, M> {
@@ -98,20 +123,27 @@ impl<'a, M: Mass> Motion<'a, M> {
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
         let mut workspace = ContinuousSystem::workspace::<f64>(model, g);
         model.velocity_and_force::<f64>(*t, g, mu, &mut workspace, &mut xi, &mut tau);
-        let sizes = xi.max_magnitude() + tau.max_magnitude() + mu.max_magnitude();
-        if !(g.is_finite() && sizes.is_finite()) {
+        let magnitude = xi.max_magnitude() + tau.max_magnitude() + mu.max_magnitude();
+        if !(g.is_finite() && magnitude.is_finite()) {
             return Err(not_a_state());
         }
-        let length = length(model);
-        let rates = first_and_rest(&xi.0, &xi.2).map(|omega| omega.vec3().norm());
-        let speed = rates.fold(xi.1.vec3().norm(), |speed, rate| speed.max(length * rate));
+        let sizes = sizes(model);
+        let extents = || sizes.iter().map(|size| size.extent);
+        let length = extents().fold(0.0, f64::max);
+        let rates = || first_and_rest(&xi.0, &xi.2).map(|omega| omega.vec3().norm());
+        let speeds = rates().zip(extents()).map(|(rate, extent)| rate * extent);
+        let speed = speeds.fold(xi.1.vec3().norm(), f64::max);
+        let rounding = sizes.iter().map(|size| ROUNDED_RATE * speed * size.rate());
+        let rate = rates().chain(rounding).fold(0.0, f64::max);
         Ok(Self {
             model,
             state,
             xi,
             tau,
+            sizes,
             length,
             speed,
+            rate,
         })
     }
 
@@ -145,17 +177,21 @@ impl<'a, M: Mass> Motion<'a, M> {
         candidates.into_iter().map(unit).collect()
     }
 
-    /// The joints from the mass centres, relative to the length, in the reference frame.
+    /// The joints from the mass centres, relative to the size of the body, in the reference frame.
     fn levers(&self) -> Vec<Vec3> {
         let points = self.model.nodes.iter().enumerate().flat_map(|(i, node)| {
-            let on = self.attitude(node.parent);
-            let points = [
-                on.rotate(node.at_parent),
-                self.attitude(i).rotate(node.at_self),
-            ];
-            points.map(|x| x * (1.0 / self.length))
+            let points = [(node.parent, node.at_parent), (i, node.at_self)];
+            points.map(|(body, x)| {
+                let lever = self.attitude(body).rotate(x);
+                lever * (1.0 / self.reach(body, x))
+            })
         });
         points.collect()
+    }
+
+    /// The size of body `i` with a joint at `x`, m.
+    fn reach(&self, i: usize, x: Vec3) -> f64 {
+        x.norm().max(self.sizes[i].gyration)
     }
 
     /// The first body's, relative to the speed.
@@ -229,23 +265,19 @@ impl<'a, M: Mass> Motion<'a, M> {
             self.attitude(node.parent).inverse_rotate(n),
         );
         let coupling = |a: Mat3| ratio(normal.cross(a * normal).norm(), a.frobenius());
-        let spin = self.length * self.rate(i).cross(normal).norm();
+        let spin = self.rate(i).cross(normal).norm();
         let violation = |what, body, defect| Violation { what, body, defect };
         use NotPlanarCause::*;
+        let joint = |body, normal: Vec3, x: Vec3| {
+            let defect = ratio(normal.dot(x), self.reach(body, x));
+            violation(JointOffPlane, body, defect)
+        };
         [
             violation(MassCoupling, i, coupling(self.model.masses[i].matrix())),
             violation(InertiaCoupling, i, coupling(node.j)),
-            violation(
-                JointOffPlane,
-                i,
-                ratio(normal.dot(node.at_self), self.length),
-            ),
-            violation(
-                JointOffPlane,
-                node.parent,
-                ratio(on.dot(node.at_parent), self.length),
-            ),
-            violation(SpinOffPlane, i, ratio(spin, self.speed)),
+            joint(i, normal, node.at_self),
+            joint(node.parent, on, node.at_parent),
+            violation(SpinOffPlane, i, ratio(spin, self.rate)),
             violation(GravityOffPlane, 0, self.gravity_off_plane(i, n)),
         ]
         .into_iter()
@@ -282,14 +314,26 @@ impl<'a, M: Mass> Motion<'a, M> {
     }
 }
 
-/// The longest lever or radius of gyration, m.
-fn length<M: Mass>(model: &ArticulatedBody<M>) -> f64 {
-    let bodies = model.nodes.iter().zip(&model.masses);
-    let sizes = bodies.flat_map(|(node, mass)| {
-        let gyration = (node.j.trace() / mass.matrix().trace()).sqrt();
-        [node.at_parent.norm(), node.at_self.norm(), gyration]
-    });
-    sizes.fold(0.0, f64::max)
+/// How large each body is.
+fn sizes<M: Mass>(model: &ArticulatedBody<M>) -> Vec<Sizes> {
+    let masses: Vec<f64> = model.masses.iter().map(|m| m.matrix().trace()).collect();
+    let bodies = model.nodes.iter().zip(&masses);
+    let size = |(node, mass): (&Node, &f64)| {
+        let gyration = (node.j.trace() / mass).sqrt();
+        Sizes {
+            gyration,
+            extent: gyration,
+            carried: 1.0,
+        }
+    };
+    let mut sizes: Vec<Sizes> = bodies.map(size).collect();
+    for (i, node) in model.nodes.iter().enumerate().skip(1).rev() {
+        sizes[node.parent].carried += sizes[i].carried * (masses[i] / masses[node.parent]);
+        for (body, x) in [(node.parent, node.at_parent), (i, node.at_self)] {
+            sizes[body].extent = sizes[body].extent.max(x.norm());
+        }
+    }
+    sizes
 }
 
 /// The size of a part relative to a whole; none of nothing.
