@@ -22,18 +22,32 @@ pub(crate) struct Weight {
 impl Weight {
     pub(crate) fn new(gravity: Vec3, net_masses: &[f64], nodes: &[Node]) -> Self {
         let mut sums = net_masses.to_vec();
+        // What cancels in the sums and the levers: their rounding is relative to it.
+        let mut sizes: Vec<f64> = net_masses.iter().map(|mass| mass.abs()).collect();
         let mut levers = vec![Vec3::zero(); nodes.len()];
+        let mut lever_sizes = vec![0.0; nodes.len()];
         for (i, node) in nodes.iter().enumerate().skip(1).rev() {
             sums[node.parent] += sums[i];
+            sizes[node.parent] += sizes[i];
             levers[node.parent] += node.at_parent * sums[i];
+            lever_sizes[node.parent] += node.at_parent.norm() * sizes[i];
             levers[i] -= node.at_self * sums[i];
+            lever_sizes[i] += node.at_self.norm() * sizes[i];
         }
-        let total = sums.first().copied().unwrap_or(0.0);
-        let size: f64 = net_masses.iter().map(|mass| mass.abs()).sum();
-        let rounding = f64::EPSILON * size * net_masses.len() as f64;
+        let first = |values: &[f64]| values.first().copied().unwrap_or(0.0);
+        let (total, size) = (first(&sums), first(&sizes));
+        let is_rounding = |part: f64, size: f64| {
+            let rounding = f64::EPSILON * nodes.len() as f64 * size;
+            part <= rounding && rounding.is_finite()
+        };
+        for (lever, size) in levers.iter_mut().zip(lever_sizes) {
+            if is_rounding(lever.norm(), size) {
+                *lever = Vec3::zero();
+            }
+        }
         Self {
             gravity,
-            total: if total.abs() <= rounding && rounding.is_finite() {
+            total: if is_rounding(total.abs(), size) {
                 0.0
             } else {
                 total
@@ -55,6 +69,12 @@ impl Weight {
     /// Whether the whole floats: then nothing depends on where it is.
     pub(crate) fn is_neutral(&self) -> bool {
         self.total == 0.0
+    }
+
+    /// Whether it does nothing anywhere: neither a force nor a torque.
+    pub(crate) fn is_balanced(&self) -> bool {
+        let levers = self.levers.iter().all(|s| *s == Vec3::zero());
+        levers && self.is_neutral()
     }
 
     /// $w_0 \gamma$, N, reference frame.

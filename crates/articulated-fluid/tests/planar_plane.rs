@@ -92,7 +92,7 @@ fn assert_refused(
 #[test]
 fn what_is_off_the_plane_is_named_and_measured() {
     use NotPlanarCause::*;
-    // Lever 0.9 m, speed 0.9 m/s by the rate of 1 rad/s: the sizes that the defects are relative to.
+    // The sizes that the defects are relative to: levers of 0.63 m and 0.9 m, the rate of 1 rad/s, and 0.63 m/s by it.
     let coupled = |a: [f64; 3]| (a[2] - a[1]) * TILT / Mat3::diagonal(a).frobenius();
     assert_refused(MassCoupling, 1, coupled([1.2, 2.2, 3.0]), |parts, flat| {
         parts.bodies[1].mass = turned(parts.bodies[1].mass, flat, 1);
@@ -101,7 +101,7 @@ fn what_is_off_the_plane_is_named_and_measured() {
     assert_refused(InertiaCoupling, 2, inertia, |parts, flat| {
         parts.bodies[2].inertia = turned(parts.bodies[2].inertia, flat, 2);
     });
-    assert_refused(JointOffPlane, 1, TILT / 0.9, |parts, flat| {
+    assert_refused(JointOffPlane, 1, TILT / 0.63, |parts, flat| {
         parts.joints[0].at_child += normal(flat, 1);
     });
     assert_refused(JointOffPlane, 0, TILT / 0.9, |parts, flat| {
@@ -111,7 +111,7 @@ fn what_is_off_the_plane_is_named_and_measured() {
         let across = flat.parts[2].frame.rotate(Vec3([TILT, 0.0, 0.0]));
         parts.xi.2[1] = parts.xi.2[1] + across.into();
     });
-    assert_refused(VelocityOffPlane, 0, TILT / 0.9, |parts, flat| {
+    assert_refused(VelocityOffPlane, 0, TILT / 0.63, |parts, flat| {
         let along = flat.world.rotate(Vec3([0.0, 0.0, TILT]));
         parts.xi.1 = parts.xi.1 + along.into();
     });
@@ -163,6 +163,128 @@ fn bodies_without_a_preferred_direction_at_rest_have_a_plane() {
     }
 }
 
+/// A body of which lengths are about `size`.
+fn sized(size: f64) -> Body {
+    let mass = size.powi(3);
+    Body {
+        mass: Mat3::diagonal([mass, 2.0 * mass, 3.0 * mass]),
+        inertia: Mat3::diagonal([0.3, 0.5, 0.6]) * (mass * size * size),
+    }
+}
+
+/// A body of 1 m on one of `size`, its joint `off` the plane in which it spins.
+fn attached(size: f64, off: f64, spin: [f64; 3]) -> Result<Plane, NotPlanar> {
+    let joint = Joint {
+        parent: 0,
+        child: 1,
+        at_parent: Vec3([size, 0.0, 0.0]),
+        at_child: Vec3([0.5, 0.0, off]),
+    };
+    let model = ArticulatedBody::new(&[sized(size), sized(1.0)], &[joint]).expect("a model");
+    let xi = (
+        Tangent::zero(),
+        Tangent::zero(),
+        core::iter::once(Tangent(spin)).collect(),
+    );
+    Plane::find(&model, &model.state(0.0, model.aligned(), &xi))
+}
+
+#[test]
+fn a_small_body_on_a_large_one_is_judged_by_its_own_size() {
+    for size in [1.0, 1e3, 1e6, 1e9] {
+        let normal = attached(size, 0.0, [0.0, 0.0, 2.0])
+            .expect("a plane")
+            .normal();
+        assert_eq!(normal, Vec3([0.0, 0.0, 1.0]));
+        let joint = attached(size, 0.9e-3, [0.0, 0.0, 2.0]).expect_err("no plane");
+        assert_eq!(joint.what, NotPlanarCause::JointOffPlane);
+        let spin = attached(size, 0.0, [2e-9, 0.0, 2.0]).expect_err("no plane");
+        assert_eq!((spin.what, spin.body), (NotPlanarCause::SpinOffPlane, 1));
+    }
+}
+
+#[test]
+fn a_slow_spin_of_a_fast_body_is_judged_as_a_spin() {
+    let model = ArticulatedBody::new(&[sized(1.0)], &[]).expect("a model");
+    for (speed, rate) in [(1.0, 1.0), (1e3, 1.0), (1e3, 0.0)] {
+        let found = |off: f64| {
+            let omega = Tangent([off, 0.0, rate]);
+            let xi = (omega, Tangent([speed, 0.0, 0.0]), [].into_iter().collect());
+            Plane::find(&model, &model.state(0.0, model.aligned(), &xi))
+        };
+        assert!(found(0.0).is_ok());
+        if rate > 0.0 {
+            let refused = found(1e-9).expect_err("no plane");
+            assert_eq!(refused.what, NotPlanarCause::SpinOffPlane);
+        }
+    }
+}
+
+/// A chain along its first axis at rest, the vertical plane in which it falls at 30 degrees about z.
+#[test]
+fn the_vertical_plane_of_a_chain_released_from_rest_is_found() {
+    let azimuth = core::f64::consts::FRAC_PI_6;
+    let tilted = SO3::exp(&Tangent([0.0, 0.3, 0.0]));
+    let attitude = SO3::exp(&Tangent([0.0, 0.0, azimuth])).compose(&tilted);
+    let expected = Vec3([-azimuth.sin(), azimuth.cos(), 0.0]);
+    let link = |i: usize| Joint {
+        parent: i,
+        child: i + 1,
+        at_parent: Vec3([1.0, 0.0, 0.0]),
+        at_child: Vec3([-1.0, 0.0, 0.0]),
+    };
+    for inertia in [[0.1; 3], [0.1, 0.4, 0.4], [0.1, 0.4, 0.45]] {
+        for net in [[-2.0, 1.0, 1.0], [0.1, 1.0, 1.0]] {
+            let body = Body {
+                mass: Mat3::diagonal([1.0; 3]),
+                inertia: Mat3::diagonal(inertia),
+            };
+            let model = ArticulatedBody::new(&[body; 3], &[link(0), link(1)]).expect("a model");
+            let model = model.with_gravity(Vec3([0.0, 0.0, -9.81]), &net);
+            let model = model.expect("a weight");
+            let mut g = model.aligned();
+            g.0 = attitude;
+            g.2.iter_mut().for_each(|r| *r = attitude);
+            let mu = g.zero_dual();
+            let plane = Plane::find(&model, &State { t: 0.0, g, mu }).expect("a plane");
+            assert!(plane.normal().cross(expected).norm() < 1e-14);
+        }
+    }
+}
+
+/// Three bodies pinned by their centres to a float that carries them: their weights balance, but for rounding.
+#[test]
+fn weights_that_balance_have_no_part_along_the_normal() {
+    let body = Body {
+        mass: Mat3::diagonal([1.0; 3]),
+        inertia: Mat3::diagonal([0.1, 0.4, 0.45]),
+    };
+    let pin = |(i, x): (usize, f64)| Joint {
+        parent: 0,
+        child: i + 1,
+        at_parent: Vec3([x, 0.0, 0.0]),
+        at_child: Vec3::zero(),
+    };
+    let pinned = |xs: [f64; 3]| {
+        let joints: Vec<Joint> = xs.into_iter().enumerate().map(pin).collect();
+        let model = ArticulatedBody::new(&[body; 4], &joints).expect("a model");
+        let model = model
+            .with_gravity(Vec3([0.0, 0.0, -9.81]), &[-3.0, 1.0, 1.0, 1.0])
+            .expect("a weight");
+        let spin = |rate: f64| Tangent([0.0, 0.0, rate]);
+        let xi = (
+            spin(1.0),
+            Tangent::zero(),
+            (0..3).map(|_| spin(2.0)).collect(),
+        );
+        Plane::find(&model, &model.state(0.0, model.aligned(), &xi))
+    };
+    let plane = pinned([0.3, -0.1, -0.2]).expect("a plane");
+    assert_eq!(plane.normal(), Vec3([0.0, 0.0, 1.0]));
+    let off = pinned([0.3, -0.1, -0.2 + 1e-9]).expect_err("no balance");
+    assert_eq!(off.what, NotPlanarCause::GravityOffPlane);
+}
+
 #[test]
 fn a_state_of_another_model_and_one_not_finite_are_refused() {
     let (model, state) = (fish().model(), fish().state());
@@ -197,9 +319,39 @@ proptest! {
     }
 
     #[test]
+    fn the_plane_of_bodies_of_any_sizes_is_found(
+        flat in any_flat(),
+        sizes in prop::collection::vec(-3.0..0.0_f64, 5),
+        rest in any::<bool>(),
+    ) {
+        let flat = scaled(flat, &sizes, rest);
+        let found = Plane::find(&flat.model(), &flat.state());
+        prop_assert!(found.is_ok(), "{}", found.unwrap_err());
+    }
+
+    #[test]
     fn the_plane_of_a_long_chain_is_found(flat in chain(30)) {
         prop_assert!(Plane::find(&flat.model(), &flat.state()).is_ok());
     }
+}
+
+/// The bodies of sizes of these powers of ten, the largest first; perhaps without spin.
+///
+/// Of a light body that carries heavy ones, the momenta tell no velocity.
+fn scaled(mut flat: Flat, powers: &[f64], rest: bool) -> Flat {
+    let mut powers = powers.to_vec();
+    powers.sort_by(|a, b| b.total_cmp(a));
+    let size = |i: usize| 10.0_f64.powf(powers[i]);
+    for i in 0..flat.parts.len() {
+        let parent = flat.parts[i].parent % i.max(1);
+        let part = &mut flat.parts[i];
+        part.mass = part.mass * size(i).powi(3);
+        part.inertia = part.inertia * size(i).powi(5);
+        part.at_child = part.at_child.map(|x| x * size(i));
+        part.at_parent = part.at_parent.map(|x| x * size(parent));
+        part.rate *= f64::from(!rest);
+    }
+    flat
 }
 
 /// A chain with angles and rates up to 1.

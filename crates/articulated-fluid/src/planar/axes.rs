@@ -10,13 +10,21 @@ pub(super) fn unit(x: Vec3) -> Vec3 {
     x * (1.0 / x.norm())
 }
 
+/// The longest of the vectors; zero of none.
+pub(super) fn longest(vectors: &[Vec3]) -> Vec3 {
+    let longer = |a: &&Vec3, b: &&Vec3| a.norm().total_cmp(&b.norm());
+    vectors
+        .iter()
+        .max_by(longer)
+        .copied()
+        .unwrap_or(Vec3::zero())
+}
+
 /// The cross product of two vectors, the longest and the one farthest from its line; zero where all are on one.
 pub(super) fn normal_to(vectors: &[Vec3]) -> Vec3 {
-    let longer = |a: &Vec3, b: &Vec3| a.norm().total_cmp(&b.norm());
-    let longest = vectors.iter().copied().max_by(longer);
-    let longest = longest.unwrap_or(Vec3::zero());
-    let across = vectors.iter().map(|x| longest.cross(*x)).max_by(longer);
-    across.unwrap_or(Vec3::zero())
+    let first = longest(vectors);
+    let across: Vec<Vec3> = vectors.iter().map(|x| first.cross(*x)).collect();
+    longest(&across)
 }
 
 /// The eigenvectors of a symmetric matrix, by Jacobi's rotations.

@@ -3,20 +3,42 @@
 use dvi::{ContinuousSystem, State};
 use lie::{LieGroup, Mat3, SO3, Vec3, VectorSpace};
 
-use super::axes::{normal_to, principal_axes, unit};
+use super::axes::{longest, normal_to, principal_axes, unit};
 use super::plane::first_and_rest;
 use super::{NotPlanar, NotPlanarCause};
 use crate::elimination::{Momentum, Velocity, of};
+use crate::model::Node;
 use crate::{ArticulatedBody, Configuration, Mass};
 
 /// Violations up to this are those of rounding.
 const ROUNDING: f64 = 1e-12;
+
+/// What a rate that is all rounding may be relative to, as part of the rate that the momenta would give.
+const ROUNDED_RATE: f64 = 1e-2;
 
 /// A normal that was found.
 pub(super) struct Found {
     pub(super) normal: Vec3,
     /// The size of the bodies, m.
     pub(super) length: f64,
+}
+
+/// How large a body is.
+#[derive(Clone, Copy)]
+struct Sizes {
+    /// The radius of gyration, m.
+    gyration: f64,
+    /// The longest lever or that radius, m.
+    extent: f64,
+    /// The mass of the body and of those on it, relative to its own.
+    carried: f64,
+}
+
+impl Sizes {
+    /// The rate that belongs to the momentum $m v d$ of what the body carries, relative to $v$: $m d / m_i k_i^2$, 1/m.
+    fn rate(&self) -> f64 {
+        self.carried * (self.extent / self.gyration) / self.gyration
+    }
 }
 
 /// How far a quantity is from what a plane asks of it, relative to the size of its kind.
@@ -80,10 +102,13 @@ struct Motion<'a, M> {
     state: &'a State<Configuration>,
     xi: Velocity,
     tau: Momentum,
+    sizes: Vec<Sizes>,
     /// The longest lever or radius of gyration, m.
     length: f64,
-    /// The largest velocity, of the first body or of turning at that length, m/s.
+    /// The largest velocity, of the first body or of a joint or a part of a body about its mass centre, m/s.
     speed: f64,
+    /// The largest angular rate, rad/s; not less than what rounding of the momenta makes of none.
+    rate: f64,
 }
 
 impl<'a, M: Mass> Motion<'a, M> {
@@ -98,20 +123,27 @@ impl<'a, M: Mass> Motion<'a, M> {
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
         let mut workspace = ContinuousSystem::workspace::<f64>(model, g);
         model.velocity_and_force::<f64>(*t, g, mu, &mut workspace, &mut xi, &mut tau);
-        let sizes = xi.max_magnitude() + tau.max_magnitude() + mu.max_magnitude();
-        if !(g.is_finite() && sizes.is_finite()) {
+        let magnitude = xi.max_magnitude() + tau.max_magnitude() + mu.max_magnitude();
+        if !(g.is_finite() && magnitude.is_finite()) {
             return Err(not_a_state());
         }
-        let length = length(model);
-        let rates = first_and_rest(&xi.0, &xi.2).map(|omega| omega.vec3().norm());
-        let speed = rates.fold(xi.1.vec3().norm(), |speed, rate| speed.max(length * rate));
+        let sizes = sizes(model);
+        let extents = || sizes.iter().map(|size| size.extent);
+        let length = extents().fold(0.0, f64::max);
+        let rates = || first_and_rest(&xi.0, &xi.2).map(|omega| omega.vec3().norm());
+        let speeds = rates().zip(extents()).map(|(rate, extent)| rate * extent);
+        let speed = speeds.fold(xi.1.vec3().norm(), f64::max);
+        let rounding = sizes.iter().map(|size| ROUNDED_RATE * speed * size.rate());
+        let rate = rates().chain(rounding).fold(0.0, f64::max);
         Ok(Self {
             model,
             state,
             xi,
             tau,
+            sizes,
             length,
             speed,
+            rate,
         })
     }
 
@@ -124,46 +156,67 @@ impl<'a, M: Mass> Motion<'a, M> {
     }
 
     /// Unit vectors that may be the normal, in the reference frame: the coordinate axes, the angular velocity of the fastest
-    /// body, what is normal to the levers and the velocity, and the principal axes of the first body and of the whole.
+    /// body, what is normal to what lies in the plane, and the principal axes of the first body and of the whole.
     fn candidates(&self) -> Vec<Vec3> {
         let bodies = 0..self.model.nodes.len();
         let faster = |a: &usize, b: &usize| self.rate(*a).norm().total_cmp(&self.rate(*b).norm());
         let fastest = bodies.max_by(faster).unwrap_or(0);
         let spin = self.attitude(fastest).rotate(self.rate(fastest));
         let first = self.attitude(0).matrix().conjugate(self.model.nodes[0].j);
-        let levers = self.levers();
+        let (levers, velocity, gravity) = (self.levers(), self.velocity(), self.gravity());
+        let longest = longest(&levers);
+        let in_plane = [levers, vec![velocity, gravity]].concat();
         let [x, y, z] = Mat3::identity().0.map(Vec3);
-        let mut candidates = vec![z, y, x, spin, normal_to(&levers)];
+        let mut candidates = vec![z, y, x, spin, normal_to(&in_plane)];
+        // These whatever their lengths: a velocity is short next to a fast spin.
+        candidates.extend([gravity.cross(velocity), velocity.cross(longest)]);
+        candidates.push(longest.cross(gravity));
         candidates.extend(principal_axes(first));
-        candidates.extend(principal_axes(self.shape(&levers)));
+        candidates.extend(principal_axes(self.shape(&in_plane)));
         candidates.retain(|n| n.is_finite() && n.norm() > 0.0);
         candidates.into_iter().map(unit).collect()
     }
 
-    /// What lies in the plane, relative to its size, in the reference frame: the joints from the mass centres, the velocity.
+    /// The joints from the mass centres, relative to the size of the body, in the reference frame.
     fn levers(&self) -> Vec<Vec3> {
         let points = self.model.nodes.iter().enumerate().flat_map(|(i, node)| {
-            let on = self.attitude(node.parent);
-            let points = [
-                on.rotate(node.at_parent),
-                self.attitude(i).rotate(node.at_self),
-            ];
-            points.map(|x| x * (1.0 / self.length))
+            let points = [(node.parent, node.at_parent), (i, node.at_self)];
+            points.map(|(body, x)| {
+                let lever = self.attitude(body).rotate(x);
+                lever * (1.0 / self.reach(body, x))
+            })
         });
-        let velocity = self.xi.1.vec3() * (1.0 / self.speed.max(f64::MIN_POSITIVE));
-        points.chain([velocity]).collect()
+        points.collect()
     }
 
-    /// A symmetric matrix with the normal as a principal axis, as it is one of each term: masses, inertias, levers $x x^T$.
-    fn shape(&self, levers: &[Vec3]) -> Mat3 {
+    /// The size of body `i` with a joint at `x`, m.
+    fn reach(&self, i: usize, x: Vec3) -> f64 {
+        x.norm().max(self.sizes[i].gyration)
+    }
+
+    /// The first body's, relative to the speed.
+    fn velocity(&self) -> Vec3 {
+        self.xi.1.vec3() * (1.0 / self.speed.max(f64::MIN_POSITIVE))
+    }
+
+    /// Of length 1; zero where it does nothing.
+    fn gravity(&self) -> Vec3 {
+        let weight = self.model.weight.as_ref();
+        let acts = weight.filter(|weight| !weight.is_balanced());
+        let gravity = acts.map_or(Vec3::zero(), |weight| weight.gravity());
+        gravity * (1.0 / gravity.norm().max(f64::MIN_POSITIVE))
+    }
+
+    /// A symmetric matrix with the normal as a principal axis, as it is one of each term: masses, inertias, $x x^T$ in the plane.
+    fn shape(&self, in_plane: &[Vec3]) -> Mat3 {
         let bodies = self.model.masses.iter().zip(&self.model.nodes).enumerate();
         let bodies = bodies.map(|(i, (mass, node))| {
             let (mass, inertia) = (mass.matrix(), node.j);
             let sum = mass * (1.0 / mass.trace()) + inertia * (1.0 / inertia.trace());
             self.attitude(i).matrix().conjugate(sum)
         });
-        let levers = levers.iter().map(|x| x.outer(*x));
-        bodies.chain(levers).fold(Mat3::zero(), |sum, a| sum + a)
+        let in_plane = in_plane.iter().map(|x| x.outer(*x));
+        bodies.chain(in_plane).fold(Mat3::zero(), |sum, a| sum + a)
     }
 
     /// How many quantities violate the plane with this normal, and the worst of all.
@@ -212,23 +265,19 @@ impl<'a, M: Mass> Motion<'a, M> {
             self.attitude(node.parent).inverse_rotate(n),
         );
         let coupling = |a: Mat3| ratio(normal.cross(a * normal).norm(), a.frobenius());
-        let spin = self.length * self.rate(i).cross(normal).norm();
+        let spin = self.rate(i).cross(normal).norm();
         let violation = |what, body, defect| Violation { what, body, defect };
         use NotPlanarCause::*;
+        let joint = |body, normal: Vec3, x: Vec3| {
+            let defect = ratio(normal.dot(x), self.reach(body, x));
+            violation(JointOffPlane, body, defect)
+        };
         [
             violation(MassCoupling, i, coupling(self.model.masses[i].matrix())),
             violation(InertiaCoupling, i, coupling(node.j)),
-            violation(
-                JointOffPlane,
-                i,
-                ratio(normal.dot(node.at_self), self.length),
-            ),
-            violation(
-                JointOffPlane,
-                node.parent,
-                ratio(on.dot(node.at_parent), self.length),
-            ),
-            violation(SpinOffPlane, i, ratio(spin, self.speed)),
+            joint(i, normal, node.at_self),
+            joint(node.parent, on, node.at_parent),
+            violation(SpinOffPlane, i, ratio(spin, self.rate)),
             violation(GravityOffPlane, 0, self.gravity_off_plane(i, n)),
         ]
         .into_iter()
@@ -265,14 +314,26 @@ impl<'a, M: Mass> Motion<'a, M> {
     }
 }
 
-/// The longest lever or radius of gyration, m.
-fn length<M: Mass>(model: &ArticulatedBody<M>) -> f64 {
-    let bodies = model.nodes.iter().zip(&model.masses);
-    let sizes = bodies.flat_map(|(node, mass)| {
-        let gyration = (node.j.trace() / mass.matrix().trace()).sqrt();
-        [node.at_parent.norm(), node.at_self.norm(), gyration]
-    });
-    sizes.fold(0.0, f64::max)
+/// How large each body is.
+fn sizes<M: Mass>(model: &ArticulatedBody<M>) -> Vec<Sizes> {
+    let masses: Vec<f64> = model.masses.iter().map(|m| m.matrix().trace()).collect();
+    let bodies = model.nodes.iter().zip(&masses);
+    let size = |(node, mass): (&Node, &f64)| {
+        let gyration = (node.j.trace() / mass).sqrt();
+        Sizes {
+            gyration,
+            extent: gyration,
+            carried: 1.0,
+        }
+    };
+    let mut sizes: Vec<Sizes> = bodies.map(size).collect();
+    for (i, node) in model.nodes.iter().enumerate().skip(1).rev() {
+        sizes[node.parent].carried += sizes[i].carried * (masses[i] / masses[node.parent]);
+        for (body, x) in [(node.parent, node.at_parent), (i, node.at_self)] {
+            sizes[body].extent = sizes[body].extent.max(x.norm());
+        }
+    }
+    sizes
 }
 
 /// The size of a part relative to a whole; none of nothing.

@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::error::SceneError;
 use super::matrices::{Matrix, definite, diagonal, is_of_a_rigid_body, semidefinite, sum};
-use super::raw::{Field, Node, RawBody};
+use super::raw::{Entry, Field, Node, RawBody};
 use super::source::Source;
 use super::values::{array, not_negative, positive};
 use crate::ellipsoid::Ellipsoid;
@@ -141,8 +141,8 @@ fn explicit(
     let field = source.require(node, "mass", &raw.mass)?;
     let mass = positive(field, source)?;
     let inertia = own_inertia(raw, field, source)?;
-    let added_mass = semidefinite(raw.added_mass.as_ref(), source)?;
-    let added_inertia = semidefinite(raw.added_inertia.as_ref(), source)?;
+    let added_mass = added(&raw.added_mass, around, source)?;
+    let added_inertia = added(&raw.added_inertia, around, source)?;
     let shape = shape(raw, source)?;
     let displaced = displaced(node, shape.as_ref(), around, source)?;
     let net_mass = displaced.map_or(0.0, |displaced| net(mass, displaced));
@@ -156,6 +156,24 @@ fn explicit(
             net_mass,
         }),
         _ => Err(out_of_range(field.span(), source)),
+    }
+}
+
+/// What the fluid adds to the mass or the inertia.
+fn added(
+    field: &Field<Vec<Entry>>,
+    around: &Surroundings,
+    source: &Source,
+) -> Result<Matrix, SceneError> {
+    let added = semidefinite(field.as_ref(), source)?;
+    let is_zero = added.iter().flatten().all(|x| *x == 0.0);
+    match field {
+        Some(field) if around.density == 0.0 && !is_zero => {
+            let message = "not zero, but without a fluid (fluid.density = 0) nothing is added; \
+                           expected zero or no such key, or a density > 0";
+            Err(source.fail(field.span(), message))
+        }
+        _ => Ok(added),
     }
 }
 
@@ -183,11 +201,8 @@ fn displaced(
     around: &Surroundings,
     source: &Source,
 ) -> Result<Option<f64>, SceneError> {
-    let volume = match &node.get_ref().0.volume {
-        Some(volume) => Some(not_negative(volume, source)?),
-        None => shape.map(Ellipsoid::volume),
-    };
-    match volume {
+    let given = volume(&node.get_ref().0, source)?;
+    match given.or_else(|| shape.map(Ellipsoid::volume)) {
         Some(volume) => Ok(Some(around.density * volume)),
         None if around.density == 0.0 => Ok(Some(0.0)),
         None if !around.gravity => Ok(None),
@@ -197,6 +212,20 @@ fn displaced(
             Err(source.fail(node.span(), message))
         }
     }
+}
+
+/// The volume as given: with a shape it may be another than the ellipsoid's, but not none.
+fn volume(raw: &RawBody, source: &Source) -> Result<Option<f64>, SceneError> {
+    let Some(field) = &raw.volume else {
+        return Ok(None);
+    };
+    let volume = not_negative(field, source)?;
+    if volume == 0.0 && raw.shape.is_some() {
+        let message = "volume is 0, but the key shape gives the body an extent; expected a \
+                       volume > 0 or no such key, or no shape";
+        return Err(source.fail(field.span(), message));
+    }
+    Ok(Some(volume))
 }
 
 /// Totals as given: what of them is the body's own is not known.

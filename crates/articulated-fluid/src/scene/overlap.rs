@@ -12,6 +12,9 @@ const TOUCHING: f64 = 1e-9;
 /// Halvings of the interval of the contact function's maximum, at which the function is flat.
 const HALVINGS: usize = 50;
 
+/// Sweeps of Jacobi's rotations: they converge quadratically.
+const SWEEPS: usize = 8;
+
 /// Two bodies of a [`Scene`] whose ellipsoids overlap in the initial configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
@@ -127,12 +130,6 @@ impl Placed {
     fn smallest(&self) -> f64 {
         self.semi_axes.0.into_iter().fold(f64::INFINITY, f64::min)
     }
-
-    /// $R \, \mathrm{diag}(a_i^2) R^T$ in units of `length`.
-    fn squared(&self, length: f64) -> Mat3 {
-        let squares = self.semi_axes.0.map(|a| (a / length).powi(2));
-        self.rotation.conjugate(Mat3::diagonal(squares))
-    }
 }
 
 /// The pairs of ellipsoids whose spheres overlap: sorted and swept along the axis on which all extend most.
@@ -169,33 +166,77 @@ fn candidates(placed: &[Placed]) -> Vec<(&Placed, &Placed)> {
 fn depth(a: &Placed, b: &Placed) -> Option<f64> {
     let line = b.centre - a.centre;
     let distance = line.norm();
-    let length = a.radius.max(b.radius);
     let direction = line * (1.0 / distance);
     if !direction.is_finite() {
         return Some(a.smallest() + b.smallest());
     }
-    let contact = contact(a.squared(length), b.squared(length), direction);
-    let touching = length / contact.sqrt();
+    let (semi_axes, direction) = seen_from(a, b, direction);
+    let touching = 1.0 / contact(semi_axes, direction).sqrt();
     let overlap = touching.is_finite() && distance < touching * (1.0 - TOUCHING);
     overlap.then_some(touching - distance)
 }
 
-/// The contact function of J. W. Perram and M. S. Wertheim (1985) for ellipsoids at distance 1 in the `direction` $u$,
-/// $\max_\lambda \lambda (1 - \lambda) u^T G^{-1} u$ with $G = (1 - \lambda) A + \lambda B$: the square of the distance over
-/// the one at which they touch. The maximum of this concave function is where its derivative vanishes.
-fn contact(a: Mat3, b: Mat3, direction: Vec3) -> f64 {
-    let (mut low, mut high, mut largest) = (0.0, 1.0, 0.0_f64);
+/// In the frame in which the ellipsoid `a` is the unit sphere and the axes of `b` are the frame's: the semi-axes of `b`, and
+/// the `direction`.
+///
+/// By Jacobi's rotations of the rows of $L$, $B = L L^T$: of slender ellipsoids $B$ itself would lose the short axes.
+fn seen_from(a: &Placed, b: &Placed, direction: Vec3) -> ([f64; 3], [f64; 3]) {
+    let turned = a.rotation.transpose() * b.rotation;
+    let along = a.rotation.transpose_mul(direction);
+    let row =
+        |i: usize| Vec3([0, 1, 2].map(|j| turned[(i, j)] * (b.semi_axes[j] / a.semi_axes[i])));
+    let mut rows = [0, 1, 2].map(row);
+    let mut along = [0, 1, 2].map(|i| along[i] / a.semi_axes[i]);
+    for (p, q) in [(0, 1), (0, 2), (1, 2)].repeat(SWEEPS) {
+        if let Some((cos, sin)) = turn(rows[p], rows[q]) {
+            (rows[p], rows[q]) = (rows[p] * cos - rows[q] * sin, rows[p] * sin + rows[q] * cos);
+            (along[p], along[q]) = (
+                along[p] * cos - along[q] * sin,
+                along[p] * sin + along[q] * cos,
+            );
+        }
+    }
+    (rows.map(Vec3::norm), along)
+}
+
+/// Cosine and sine of the rotation that makes two rows orthogonal; `None` where they are.
+fn turn(x: Vec3, y: Vec3) -> Option<(f64, f64)> {
+    let product = x.dot(y);
+    if product.abs() <= f64::EPSILON * x.norm() * y.norm() {
+        return None;
+    }
+    let cot = (y.norm_squared() - x.norm_squared()) / (2.0 * product);
+    let tan = cot.signum() / (cot.abs() + cot.hypot(1.0));
+    let cos = 1.0 / tan.hypot(1.0);
+    Some((cos, cos * tan))
+}
+
+/// The contact function of J. W. Perram and M. S. Wertheim (1985) for ellipsoids at distance 1 in the direction $u$,
+/// $\max_\lambda \lambda (1 - \lambda) u^T ((1 - \lambda) A + \lambda B)^{-1} u$: the square of the distance over the one at
+/// which they touch.
+///
+/// With $A = 1$, $B = \mathrm{diag}(\sigma_i^2)$ and $s = 1 / \lambda - 1$ it is
+/// $\max_s \sum_i u_i^2 / ((1 + s) (1 + \sigma_i^2 / s))$, each term with its maximum at $\sigma_i$. The maximum of the sum is
+/// between them, where the derivative vanishes: there is one, as the function of $\lambda$ is concave.
+fn contact(semi_axes: [f64; 3], direction: [f64; 3]) -> f64 {
+    let mut low = semi_axes.into_iter().fold(f64::INFINITY, f64::min);
+    let mut high = semi_axes.into_iter().fold(0.0, f64::max);
+    let mut largest = 0.0_f64;
     for _ in 0..HALVINGS {
-        let lambda = 0.5 * (low + high);
-        let weight = lambda * (1.0 - lambda);
-        let x = (a * (1.0 - lambda) + b * lambda).inverse() * direction;
-        let form = direction.dot(x);
-        largest = largest.max(weight * form);
-        let slope = (1.0 - 2.0 * lambda) * form - weight * x.dot((b - a) * x);
+        // The geometric mean, as the axes may be of any sizes.
+        let s = low.sqrt() * high.sqrt();
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for (sigma, u) in semi_axes.into_iter().zip(direction) {
+            let ratio = sigma / s;
+            let term = u / (1.0 + s) * (u / (1.0 + sigma * ratio));
+            sum += term;
+            slope += term * (ratio * ratio - 1.0) / (1.0 + sigma * ratio);
+        }
+        largest = largest.max(sum);
         if slope > 0.0 {
-            low = lambda;
+            low = s;
         } else {
-            high = lambda;
+            high = s;
         }
     }
     largest

@@ -190,3 +190,38 @@ fn bodies_that_cannot_be_are_refused() {
         "1:1: gravity: has 2 elements; expected an array of 3 finite numbers, in m/s^2",
     );
 }
+
+#[test]
+fn without_a_fluid_nothing_is_added() {
+    let keys = "mass = 1\ninertia = [1, 1, 1]\n";
+    for (added, key) in [
+        ("added_mass = [5, 5, 9]", "added_mass"),
+        ("added_inertia = [0, 0, 1e-9]", "added_inertia"),
+    ] {
+        let text = one("[0, 0, 0]", 0.0, &format!("{keys}{added}"));
+        assert_eq!(
+            crate::refusal(&text).to_string(),
+            format!(
+                "f.toml:7:1: body.{key}: not zero, but without a fluid (fluid.density = 0) nothing \
+                 is added; expected zero or no such key, or a density > 0"
+            )
+        );
+    }
+    let zero = "added_mass = [0, 0, 0]\nadded_inertia = [0, 0, 0]";
+    parse(&one("[0, 0, 0]", 0.0, &format!("{keys}{zero}")));
+}
+
+#[test]
+fn a_volume_of_zero_contradicts_a_shape() {
+    let keys = "mass = 1\ninertia = [1, 1, 1]\nvolume = 0";
+    for density in [0.0, 1.0] {
+        let text = one("[0, 0, 0]", density, &format!("{keys}\nshape = [1, 1, 1]"));
+        assert_eq!(
+            crate::refusal(&text).to_string(),
+            "f.toml:7:1: body.volume: volume is 0, but the key shape gives the body an extent; \
+             expected a volume > 0 or no such key, or no shape"
+        );
+    }
+    let scene = parse(&one("[0, 0, -9.8]", 1.0, keys));
+    assert_eq!(scene.bodies[0].net_mass, 1.0);
+}

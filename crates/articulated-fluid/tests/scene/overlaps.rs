@@ -71,6 +71,74 @@ fn concentric_ellipsoids_overlap_by_their_smallest_semi_axes() {
     assert_eq!(depth(&scene), Some(8.0));
 }
 
+/// An attitude for each `k`.
+fn some_attitude(k: i32) -> [f64; 4] {
+    let k = f64::from(k);
+    let q = [1.0 + k.sin(), (2.0 * k).cos(), (3.0 * k).sin(), k.cos()];
+    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    q.map(|x| x / length)
+}
+
+#[test]
+fn parallel_needles_overlap_as_circles_do() {
+    for thin in [1e-2, 1e-4, 1e-6, 1e-8] {
+        for k in 0..100 {
+            let needle = ([1.0, thin, thin], some_attitude(k));
+            let across = SO3::from_quaternion(needle.1).rotate(Vec3([0.0, 1.5 * thin, 0.0]));
+            let found = depth(&pair(needle, needle, across)).expect("an overlap");
+            assert!(
+                (found / (0.5 * thin) - 1.0).abs() < 1e-7,
+                "{thin} {k} {found}"
+            );
+        }
+    }
+}
+
+/// At right angles and centre on centre, the gap is that of their thin axes.
+#[test]
+fn crossed_needles_overlap_by_their_thickness() {
+    for thin in [1e-2, 1e-4, 1e-6] {
+        for k in 0..100 {
+            let (a, b) = (([1.0, thin, thin], some_attitude(k)), [thin, 2.0, thin]);
+            let across = SO3::from_quaternion(a.1).rotate(Vec3([0.0, 0.0, 1.5 * thin]));
+            let found = depth(&pair(a, (b, a.1), across)).expect("an overlap");
+            assert!(
+                (found / (0.5 * thin) - 1.0).abs() < 1e-7,
+                "{thin} {k} {found}"
+            );
+        }
+    }
+}
+
+/// Needles at an angle of 0.5 about the third axis, where they touch.
+#[test]
+fn needles_at_an_angle_overlap_by_their_thickness() {
+    for thin in [1e-2, 1e-4, 1e-6] {
+        for k in 0..100 {
+            let a = SO3::from_quaternion(some_attitude(k));
+            let turned = multiplied(some_attitude(k), [0.25_f64.cos(), 0.0, 0.0, 0.25_f64.sin()]);
+            let across = a.rotate(Vec3([0.0, 0.0, 1.5 * thin]));
+            let axes = [1.0, thin, thin];
+            let found = depth(&pair((axes, some_attitude(k)), (axes, turned), across));
+            let found = found.expect("an overlap");
+            assert!(
+                (found / (0.5 * thin) - 1.0).abs() < 1e-7,
+                "{thin} {k} {found}"
+            );
+        }
+    }
+}
+
+/// The product of quaternions.
+fn multiplied([a, b, c, d]: [f64; 4], [w, x, y, z]: [f64; 4]) -> [f64; 4] {
+    [
+        a * w - b * x - c * y - d * z,
+        a * x + b * w + c * z - d * y,
+        a * y - b * z + c * w + d * x,
+        a * z + b * y - c * x + d * w,
+    ]
+}
+
 #[test]
 fn an_overlap_names_its_bodies() {
     let scene = pair(
