@@ -161,7 +161,7 @@ pub struct Samples {
 /// ```
 pub fn integrate(
     pair: Pair,
-    rhs: impl FnMut(f64, &[f64], &mut [f64]),
+    mut rhs: impl FnMut(f64, &[f64], &mut [f64]),
     y0: &[f64],
     until: f64,
     every: f64,
@@ -170,7 +170,7 @@ pub fn integrate(
     tolerance.check()?;
     check_state(y0)?;
     let grid = grid::Grid::new(until, every, y0.len())?;
-    march::march(pair, tolerance, &grid, rhs, y0)
+    march::march(pair, tolerance, &grid, &mut rhs, y0)
 }
 
 /// Steps, accepted and rejected, after which [`integrate`] gives up.

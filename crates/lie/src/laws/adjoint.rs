@@ -37,7 +37,7 @@ fn homomorphism<G: LieGroup>(c: &mut Checker, g: &G, h: &G, xi: &G::Algebra) -> 
     let case = || format!("g = {g:?}, h = {h:?}, xi = {xi:?}");
     let scale = (size(g) * size(h)).powi(2) * vector_size(xi);
     let (left, right) = (g.compose(h).adjoint(xi), g.adjoint(&h.adjoint(xi)));
-    c.vectors("Ad_gh xi = Ad_g Ad_h xi", case, (&left, &right), scale)
+    c.vectors("Ad_gh xi = Ad_g Ad_h xi", &case, (&left, &right), scale)
 }
 
 fn conjugation<G: LieGroup>(c: &mut Checker, g: &G, xi: &G::Algebra) -> Outcome {
@@ -46,7 +46,7 @@ fn conjugation<G: LieGroup>(c: &mut Checker, g: &G, xi: &G::Algebra) -> Outcome 
     let left = G::exp(&g.adjoint(xi));
     let right = g.compose(&G::exp(xi)).compose(&g.inverse());
     let formula = "exp(Ad_g xi) = g exp(xi) g^-1";
-    c.elements(formula, case, (&left, &right), scale)
+    c.elements(formula, &case, (&left, &right), scale)
 }
 
 /// By the pairing with the whole basis, which leaves a dual vector no freedom.
@@ -56,10 +56,10 @@ fn coadjoint<G: LieGroup>(c: &mut Checker, g: &G, examples: &Examples<G>) -> Out
         let (case, moved) = (|| format!("g = {g:?}, mu = {mu:?}"), g.coadjoint(mu));
         let scale = size(g).powi(2) * vector_size(mu);
         let sides = (&moved, &by_pairing::<G>(mu, &images));
-        c.vectors("<Ad*_g mu, xi> = <mu, Ad_g xi>", case, sides, scale)?;
+        c.vectors("<Ad*_g mu, xi> = <mu, Ad_g xi>", &case, sides, scale)?;
         let mut out = sum(&moved, &generic(mu, 1.5));
         g.coadjoint_into(mu, &mut out);
-        c.vectors("coadjoint_into = coadjoint", case, (&out, &moved), scale)?;
+        c.vectors("coadjoint_into = coadjoint", &case, (&out, &moved), scale)?;
     }
     Ok(())
 }
@@ -74,7 +74,7 @@ fn coadjoint_bracket<G: LieGroup>(
         let case = || format!("xi = {xi:?}, mu = {mu:?}");
         let scale = vector_size(xi) * vector_size(mu);
         let sides = (&G::coadjoint_bracket(xi, mu), &by_pairing::<G>(mu, &images));
-        c.vectors("<ad*_xi mu, eta> = <mu, ad_xi eta>", case, sides, scale)?;
+        c.vectors("<ad*_xi mu, eta> = <mu, ad_xi eta>", &case, sides, scale)?;
     }
     Ok(())
 }
@@ -90,7 +90,7 @@ fn pairing<G: LieGroup>(c: &mut Checker, xi: &G::Algebra, examples: &Examples<G>
         let case = || format!("mu = {mu:?}, xi = {xi:?}");
         let scale = vector_size(xi) * vector_size(mu) * xi.dim() as f64;
         let tolerance = tolerance::<G::Scalar>(scale);
-        c.numbers("<mu, xi> = sum of mu_i xi_i", case, sides, tolerance)?;
+        c.numbers("<mu, xi> = sum of mu_i xi_i", &case, sides, tolerance)?;
     }
     Ok(())
 }
@@ -99,7 +99,7 @@ fn antisymmetry<G: LieGroup>(c: &mut Checker, xi: &G::Algebra, eta: &G::Algebra)
     let case = || format!("xi = {xi:?}, eta = {eta:?}");
     let scale = vector_size(xi) * vector_size(eta);
     let (left, right) = (G::bracket(xi, eta), scaled(&G::bracket(eta, xi), -1.0));
-    c.vectors("[xi, eta] = -[eta, xi]", case, (&left, &right), scale)
+    c.vectors("[xi, eta] = -[eta, xi]", &case, (&left, &right), scale)
 }
 
 fn jacobi<G: LieGroup>(
@@ -114,5 +114,5 @@ fn jacobi<G: LieGroup>(
     let cyclic = sum(&b(xi, &b(eta, zeta)), &b(eta, &b(zeta, xi)));
     let minus_last = scaled(&b(zeta, &b(xi, eta)), -1.0);
     let formula = "[xi,[eta,zeta]] + [eta,[zeta,xi]] + [zeta,[xi,eta]] = 0";
-    c.vectors(formula, case, (&cyclic, &minus_last), scale)
+    c.vectors(formula, &case, (&cyclic, &minus_last), scale)
 }

@@ -37,7 +37,7 @@ fn inverses<G: LieGroup>(c: &mut Checker, examples: &Examples<G>, g: &G) -> Outc
     g.inverse_into(&mut out);
     c.elements(
         "inverse_into = inverse",
-        case,
+        &case,
         (&out, &g.inverse()),
         size(g),
     )?;
@@ -47,7 +47,7 @@ fn inverses<G: LieGroup>(c: &mut Checker, examples: &Examples<G>, g: &G) -> Outc
         g.inverse_coadjoint_into(mu, &mut out);
         let sides = (&out, &g.inverse().coadjoint(mu));
         let scale = size(g).powi(2) * vector_size(mu);
-        c.vectors("inverse_coadjoint_into = Ad*_(g^-1)", case, sides, scale)?;
+        c.vectors("inverse_coadjoint_into = Ad*_(g^-1)", &case, sides, scale)?;
     }
     Ok(())
 }
@@ -66,7 +66,7 @@ fn products<G: LieGroup>(c: &mut Checker, g: &G, xi: &G::Algebra) -> Outcome {
     let scale = size(g).powi(2) * f64::from(PRODUCTS);
     c.elements(
         formula,
-        case,
+        &case,
         (&advanced, &g.compose(&G::exp(&whole))),
         scale,
     )
@@ -79,23 +79,28 @@ fn ends<G: LieGroup, R: Retraction>(c: &mut Checker, xi: &G::Algebra, mu: &G::Du
     let mut f = element.compose(&element);
     let (mut out, mut pi) = (generic(mu, 9.0), generic(mu, 9.0));
     G::chart_enter_into::<R>(xi, mu, (&mut f, &mut out));
-    c.elements("chart_enter_into: f = tau(c)", case, (&f, &element), scale)?;
+    c.elements("chart_enter_into: f = tau(c)", &case, (&f, &element), scale)?;
     let sides = (&out, &R::d_left_inv_dual::<G>(xi, mu));
-    c.vectors("chart_enter_into: mu = (dtau^-1_c)* pi", case, sides, scale)?;
+    c.vectors(
+        "chart_enter_into: mu = (dtau^-1_c)* pi",
+        &case,
+        sides,
+        scale,
+    )?;
 
     let mut f = element.compose(&element);
     G::chart_leave_into::<R>(xi, mu, (&mut f, &mut out, &mut pi));
-    c.elements("chart_leave_into: f = tau(c)", case, (&f, &element), scale)?;
+    c.elements("chart_leave_into: f = tau(c)", &case, (&f, &element), scale)?;
     let moved = element.coadjoint(mu);
     let scale = scale * vector_size(xi);
     c.vectors(
         "chart_leave_into: mu = Ad*_f P",
-        case,
+        &case,
         (&out, &moved),
         scale,
     )?;
     let sides = (&pi, &R::d_left_dual::<G>(xi, &moved));
-    c.vectors("chart_leave_into: pi = (dtau_c)* mu", case, sides, scale)
+    c.vectors("chart_leave_into: pi = (dtau_c)* mu", &case, sides, scale)
 }
 
 fn rates<G: LieGroup, R: Retraction>(
@@ -112,12 +117,12 @@ fn rates<G: LieGroup, R: Retraction>(
     let out = (&mut c_dot, &mut pi_dot, &mut force);
     G::chart_rates_into::<R>((xi, mu, &f), (eta, &tau), out);
     let sides = (&c_dot, &R::d_left_inv::<G>(xi, eta));
-    c.vectors("chart_rates_into: c' = dtau^-1_c xi", case, sides, scale)?;
+    c.vectors("chart_rates_into: c' = dtau^-1_c xi", &case, sides, scale)?;
     let mut expected = R::d_left_dual::<G>(xi, &tau);
     let minus = G::Scalar::from_f64(-1.0);
     expected.add_scaled(minus, &R::d_left_inv_gradient::<G>(xi, mu, eta));
     let formula = "chart_rates_into: pi' = (dtau_c)* tau - d/dc <pi, dtau^-1_c xi>";
-    c.vectors(formula, case, (&pi_dot, &expected), scale)?;
+    c.vectors(formula, &case, (&pi_dot, &expected), scale)?;
     let sides = (&force, &f.inverse().coadjoint(&tau));
-    c.vectors("chart_rates_into: Ad*_(f^-1) tau", case, sides, scale)
+    c.vectors("chart_rates_into: Ad*_(f^-1) tau", &case, sides, scale)
 }

@@ -24,6 +24,10 @@ pub(super) fn difference_tolerance<S: Scalar>(scale: f64) -> f64 {
     DIFFERENCE_ROUNDINGS * S::EPSILON.powf(2.0 / 3.0) * scale
 }
 
+/// The example at hand, for the message of a failure; its type forgotten, so that comparing is compiled once for each type that
+/// is compared, and not for every law again.
+pub(super) type Case<'a> = &'a dyn Fn() -> String;
+
 /// Counts the comparisons and keeps the worst.
 #[derive(Default)]
 pub(super) struct Checker {
@@ -36,7 +40,7 @@ impl Checker {
     pub(super) fn numbers<S: Scalar>(
         &mut self,
         formula: &'static str,
-        case: impl Fn() -> String,
+        case: Case<'_>,
         (left, right): (&[S], &[S]),
         tolerance: f64,
     ) -> Outcome {
@@ -63,7 +67,7 @@ impl Checker {
     pub(super) fn vectors<V: VectorSpace>(
         &mut self,
         formula: &'static str,
-        case: impl Fn() -> String,
+        case: Case<'_>,
         (left, right): (&V, &V),
         scale: f64,
     ) -> Outcome {
@@ -75,7 +79,7 @@ impl Checker {
     pub(super) fn within<V: VectorSpace>(
         &mut self,
         formula: &'static str,
-        case: impl Fn() -> String,
+        case: Case<'_>,
         (left, right): (&V, &V),
         tolerance: f64,
     ) -> Outcome {
@@ -89,16 +93,16 @@ impl Checker {
     pub(super) fn elements<G: LieGroup>(
         &mut self,
         formula: &'static str,
-        case: impl Fn() -> String,
+        case: Case<'_>,
         (a, b): (&G, &G),
         scale: f64,
     ) -> Outcome {
         let difference = log_of(&a.inverse().compose(b));
         let none = zero(&difference);
-        self.vectors(formula, &case, (&difference, &none), scale)?;
+        self.vectors(formula, case, (&difference, &none), scale)?;
         basis(&none).iter().try_for_each(|e| {
             let (left, right) = (a.adjoint(e), b.adjoint(e));
-            self.vectors(formula, &case, (&left, &right), scale * size(b))
+            self.vectors(formula, case, (&left, &right), scale * size(b))
         })
     }
 
@@ -106,7 +110,7 @@ impl Checker {
     pub(super) fn exists<V, E: Debug>(
         &mut self,
         formula: &'static str,
-        case: impl Fn() -> String,
+        case: Case<'_>,
         value: Result<V, E>,
     ) -> Result<V, LawError> {
         value.map_err(|error| LawError::Undefined {

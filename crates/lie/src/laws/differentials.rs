@@ -60,7 +60,7 @@ fn identity_at_zero<G: LieGroup, R: Retraction>(
 ) -> Outcome {
     let sides = (&R::d_left::<G>(&zero(eta), eta), eta);
     let case = || format!("eta = {eta:?}");
-    c.vectors(formulas.at_zero, case, sides, vector_size(eta))
+    c.vectors(formulas.at_zero, &case, sides, vector_size(eta))
 }
 
 fn bracket_is_the_derivative_of_adjoint<G>(
@@ -77,14 +77,14 @@ where
     let line = line::<G>(shape, &zero(xi), xi);
     let moved = Over::<G, JetOf<G>>::exp(&line).adjoint(&constant::<G>(shape, eta));
     let formula = "ad_xi eta = d/ds Ad_exp(s xi) eta, by duals";
-    c.vectors(formula, case, (&bracket, &partial::<G>(xi, &moved)), scale)?;
+    c.vectors(formula, &case, (&bracket, &partial::<G>(xi, &moved)), scale)?;
 
     let s = step::<G>();
     let at = |s: f64| G::exp(&scaled(xi, s)).adjoint(eta);
     let difference = central(&at(s), &at(-s), s);
     let tolerance = difference_tolerance::<G::Scalar>(scale * vector_size(xi).powi(2));
     let formula = "ad_xi eta = d/ds Ad_exp(s xi) eta, by differences";
-    c.within(formula, case, (&bracket, &difference), tolerance)
+    c.within(formula, &case, (&bracket, &difference), tolerance)
 }
 
 fn retraction_laws<G, R>(
@@ -105,9 +105,9 @@ where
     let base = lifted::<G>(&R::retract::<G>(xi));
     let moved: Over<G, JetOf<G>> = R::retract(&line::<G>(shape, xi, eta));
     let by_dual = partial::<G>(xi, &log_of(&base.inverse().compose(&moved)));
-    c.vectors(formulas.left_dual, case, (&left, &by_dual), scale)?;
+    c.vectors(formulas.left_dual, &case, (&left, &by_dual), scale)?;
     let by_dual = partial::<G>(xi, &log_of(&moved.compose(&base.inverse())));
-    c.vectors(formulas.right_dual, case, (&right, &by_dual), scale)?;
+    c.vectors(formulas.right_dual, &case, (&right, &by_dual), scale)?;
 
     let s = step::<G>() / vector_size(eta);
     let base = R::retract::<G>(xi).inverse();
@@ -115,12 +115,12 @@ where
     let by_difference = central(&at(s), &at(-s), s);
     let tolerance = difference_tolerance::<G::Scalar>(scale * vector_size(eta));
     let sides = (&left, &by_difference);
-    c.within(formulas.left_difference, case, sides, tolerance)?;
+    c.within(formulas.left_difference, &case, sides, tolerance)?;
 
     let back = R::d_left::<G>(xi, &R::d_left_inv::<G>(xi, eta));
-    c.vectors(formulas.left_inverse, case, (&back, eta), scale)?;
+    c.vectors(formulas.left_inverse, &case, (&back, eta), scale)?;
     let back = R::d_right::<G>(xi, &R::d_right_inv::<G>(xi, eta));
-    c.vectors(formulas.right_inverse, case, (&back, eta), scale)
+    c.vectors(formulas.right_inverse, &case, (&back, eta), scale)
 }
 
 pub(super) type JetOf<G> = <<G as LieGroup>::Scalar as Scalar>::Jet;

@@ -59,12 +59,12 @@ fn transposes<G: LieGroup, R: Retraction>(
         let case = || format!("xi = {xi:?}, mu = {mu:?}");
         let scale = vector_size(xi).powi(3) * vector_size(mu);
         let (nu, pairings) = (R::d_left_dual::<G>(xi, mu), by_pairing::<G>(mu, &images));
-        c.vectors(formulas.transpose, case, (&nu, &pairings), scale)?;
+        c.vectors(formulas.transpose, &case, (&nu, &pairings), scale)?;
         let (nu, pairings) = (
             R::d_left_inv_dual::<G>(xi, mu),
             by_pairing::<G>(mu, &inverse_images),
         );
-        c.vectors(formulas.inverse_transpose, case, (&nu, &pairings), scale)?;
+        c.vectors(formulas.inverse_transpose, &case, (&nu, &pairings), scale)?;
     }
     Ok(())
 }
@@ -89,10 +89,10 @@ where
         let scale = vector_size(xi).powi(3) * vector_size(eta) * vector_size(mu);
         let gradient = R::d_left_inv_gradient::<G>(xi, mu, eta);
         let sides = (&gradient, &by_pairing::<G>(mu, &by_duals));
-        c.vectors(formulas.gradient_dual, case, sides, scale)?;
+        c.vectors(formulas.gradient_dual, &case, sides, scale)?;
         let sides = (&gradient, &by_pairing::<G>(mu, &by_differences));
         let tolerance = difference_tolerance::<G::Scalar>(scale);
-        c.within(formulas.gradient_difference, case, sides, tolerance)?;
+        c.within(formulas.gradient_difference, &case, sides, tolerance)?;
     }
     Ok(())
 }

@@ -28,24 +28,24 @@ where
 fn zeros<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
     let (algebra, dual, case) = (g.zero_algebra(), g.zero_dual(), || format!("g = {g:?}"));
     let sides = (&algebra, &zero(&algebra));
-    c.vectors("zero_algebra = 0", case, sides, 1.0)?;
-    c.vectors("zero_dual = 0", case, (&dual, &zero(&dual)), 1.0)
+    c.vectors("zero_algebra = 0", &case, sides, 1.0)?;
+    c.vectors("zero_dual = 0", &case, (&dual, &zero(&dual)), 1.0)
 }
 
 fn units<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
     let (e, case, scale) = (g.identity_like(), || format!("g = {g:?}"), size(g).powi(2));
-    c.elements("g e = g", case, (&g.compose(&e), g), scale)?;
-    c.elements("e g = g", case, (&e.compose(g), g), scale)?;
+    c.elements("g e = g", &case, (&g.compose(&e), g), scale)?;
+    c.elements("e g = g", &case, (&e.compose(g), g), scale)?;
     let inverse = g.inverse();
-    c.elements("g g^-1 = e", case, (&g.compose(&inverse), &e), scale)?;
-    c.elements("g^-1 g = e", case, (&inverse.compose(g), &e), scale)
+    c.elements("g g^-1 = e", &case, (&g.compose(&inverse), &e), scale)?;
+    c.elements("g^-1 g = e", &case, (&inverse.compose(g), &e), scale)
 }
 
 fn associativity<G: LieGroup>(c: &mut Checker, g: &G, h: &G, k: &G) -> Outcome {
     let case = || format!("g = {g:?}, h = {h:?}, k = {k:?}");
     let scale = size(g) * size(h) * size(k);
     let (left, right) = (g.compose(h).compose(k), g.compose(&h.compose(k)));
-    c.elements("(g h) k = g (h k)", case, (&left, &right), scale)
+    c.elements("(g h) k = g (h k)", &case, (&left, &right), scale)
 }
 
 fn in_place<G: LieGroup>(c: &mut Checker, g: &G, h: &G) -> Outcome {
@@ -53,7 +53,7 @@ fn in_place<G: LieGroup>(c: &mut Checker, g: &G, h: &G) -> Outcome {
     let mut out = other_than(&product);
     g.compose_into(h, &mut out);
     let scale = (size(g) * size(h)).powi(2);
-    c.elements("compose_into = compose", case, (&out, &product), scale)
+    c.elements("compose_into = compose", &case, (&out, &product), scale)
 }
 
 fn conversions<G>(c: &mut Checker, g: &G) -> Outcome
@@ -62,17 +62,17 @@ where
 {
     let (case, scale) = (|| format!("g = {g:?}"), size(g).powi(2));
     let same = G::convert::<G::Scalar, G::Scalar>(g, |x| x);
-    c.elements("convert(g, x -> x) = g", case, (&same, g), scale)?;
+    c.elements("convert(g, x -> x) = g", &case, (&same, g), scale)?;
     let mut out = other_than(g);
     G::convert_into::<G::Scalar, G::Scalar>(g, |x| x, &mut out);
-    c.elements("convert_into = convert", case, (&out, g), scale)?;
+    c.elements("convert_into = convert", &case, (&out, g), scale)?;
 
     type JetOf<G> = <<G as LieGroup>::Scalar as Scalar>::Jet;
     let lifted: Over<G, JetOf<G>> = G::convert(g, JetOf::<G>::constant);
     let mut out = other_than(&lifted);
     G::convert_into::<G::Scalar, JetOf<G>>(g, Jet::constant, &mut out);
     let formula = "convert_into = convert, to duals";
-    c.elements(formula, case, (&out, &lifted), scale)
+    c.elements(formula, &case, (&out, &lifted), scale)
 }
 
 /// An element that differs from $g$ in every factor.
@@ -90,7 +90,7 @@ where
 {
     let case = || format!("g = {g:?}");
     let normal = normalized(g);
-    c.elements("normalize g = g", case, (&normal, g), size(g).powi(2))?;
+    c.elements("normalize g = g", &case, (&normal, g), size(g).powi(2))?;
 
     let delta = G::Scalar::from_f64(0.5 * G::Scalar::EPSILON.sqrt());
     let p = G::convert::<G::Scalar, G::Scalar>(g, |x| x + x * x * delta);
@@ -98,9 +98,9 @@ where
     let case = || format!("p = normalize {p:?}, from {g:?} moved by delta");
     let scale = size(&p).powi(2);
     let formula = "normalize(normalize p) = normalize p + O(delta^2)";
-    c.elements(formula, case, (&normalized(&p), &p), scale)?;
+    c.elements(formula, &case, (&normalized(&p), &p), scale)?;
     let formula = "p p^-1 = e + O(delta^2) for p normalised";
-    c.elements(formula, case, (&p.compose(&p.inverse()), &e), scale)
+    c.elements(formula, &case, (&p.compose(&p.inverse()), &e), scale)
 }
 
 fn normalized<G: LieGroup>(g: &G) -> G {

@@ -73,16 +73,16 @@ fn magnitudes<V: VectorSpace>(c: &mut Checker, x: &V) -> Outcome {
     let case = || format!("x = {x:?}");
     let tolerance = tolerance::<V::Scalar>(1.0 + squares);
     let sides = (&[x.norm_squared()][..], &[squares][..]);
-    c.numbers("|x|^2 = sum of x_i^2", case, sides, tolerance)?;
+    c.numbers("|x|^2 = sum of x_i^2", &case, sides, tolerance)?;
     let sides = (&[x.max_magnitude()][..], &[largest][..]);
-    c.numbers("max_magnitude = max |x_i|", case, sides, tolerance)
+    c.numbers("max_magnitude = max |x_i|", &case, sides, tolerance)
 }
 
 fn vectors<V: VectorSpace>(c: &mut Checker, formula: &'static str, sides: (&V, &V)) -> Outcome {
-    c.vectors(formula, || format!("{:?}", sides.1), sides, 1.0)
+    c.vectors(formula, &|| format!("{:?}", sides.1), sides, 1.0)
 }
 
 fn same<S: Scalar>(c: &mut Checker, formula: &'static str, sides: (&[S], &[S])) -> Outcome {
     let case = || format!("{:?}", sides.1);
-    c.numbers(formula, case, sides, tolerance::<S>(1.0))
+    c.numbers(formula, &case, sides, tolerance::<S>(1.0))
 }

@@ -3,7 +3,7 @@
 use ode_solvers::dop_shared::IntegrationError;
 
 use super::grid::Grid;
-use super::system::{Leg, Listened, Listener, Rhs, State, is_finite};
+use super::system::{Call, Leg, Listened, Listener, Rhs, State, is_finite};
 use super::{BaselineError, MAX_STEPS, Pair, Samples, Tolerance};
 
 /// The steppers keep every step of a call, so a call is kept short.
@@ -13,11 +13,11 @@ const STEPS_PER_LEG: u32 = 1 << 16;
 const NO_STEP: f64 = 16.0 * f64::EPSILON;
 
 /// Integrates over the whole grid.
-pub(super) fn march<F: FnMut(f64, &[f64], &mut [f64])>(
+pub(super) fn march(
     pair: Pair,
     tolerance: Tolerance,
     grid: &Grid,
-    rhs: F,
+    rhs: Call<'_>,
     y0: &[f64],
 ) -> Result<Samples, BaselineError> {
     let rhs = Rhs::new(rhs);
@@ -39,19 +39,19 @@ struct Tally {
     rejected: usize,
 }
 
-struct Track<'a, F> {
+struct Track<'a, 'c> {
     pair: Pair,
     tolerance: Tolerance,
     grid: &'a Grid,
-    rhs: &'a Rhs<F>,
+    rhs: &'a Rhs<'c>,
     node: Node,
     tally: Tally,
     samples: Samples,
     failure: Option<BaselineError>,
 }
 
-impl<'a, F: FnMut(f64, &[f64], &mut [f64])> Track<'a, F> {
-    fn new(pair: Pair, tolerance: Tolerance, grid: &'a Grid, rhs: &'a Rhs<F>, y0: &[f64]) -> Self {
+impl<'a, 'c> Track<'a, 'c> {
+    fn new(pair: Pair, tolerance: Tolerance, grid: &'a Grid, rhs: &'a Rhs<'c>, y0: &[f64]) -> Self {
         let node = Node {
             t: 0.0,
             y: State::from_column_slice(y0),
@@ -199,7 +199,7 @@ impl<'a, F: FnMut(f64, &[f64], &mut [f64])> Track<'a, F> {
     }
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64])> Listener for Track<'_, F> {
+impl Listener for Track<'_, '_> {
     fn accepted(&mut self, t: f64, y: &State, dy: &State) -> bool {
         self.failure = self.step(t, y, dy).err();
         self.failure.is_some()
@@ -216,7 +216,7 @@ impl Listener for Last {
     }
 }
 
-fn stuck<F>(rhs: &Rhs<F>, t: f64) -> BaselineError {
+fn stuck(rhs: &Rhs<'_>, t: f64) -> BaselineError {
     match rhs.not_finite.get() {
         Some(t) => BaselineError::NonFiniteRhs { t },
         None => BaselineError::StepUnderflow { t },

@@ -13,16 +13,19 @@ pub(super) type State = DVector<f64>;
 /// Never: a baseline is to be slow on a stiff problem, not absent.
 const STIFFNESS_TEST_EVERY: u32 = u32::MAX;
 
+/// What is integrated, its type forgotten: so the steppers are compiled once, and not for every system again.
+pub(super) type Call<'c> = &'c mut dyn FnMut(f64, &[f64], &mut [f64]);
+
 /// A right-hand side that counts its calls and remembers where it failed.
-pub(super) struct Rhs<F> {
-    call: RefCell<F>,
+pub(super) struct Rhs<'c> {
+    call: RefCell<Call<'c>>,
     pub(super) calls: Cell<usize>,
     /// Time of a non-finite answer since the last accepted step.
     pub(super) not_finite: Cell<Option<f64>>,
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64])> Rhs<F> {
-    pub(super) fn new(call: F) -> Self {
+impl<'c> Rhs<'c> {
+    pub(super) fn new(call: Call<'c>) -> Self {
         Self {
             call: RefCell::new(call),
             calls: Cell::new(0),
@@ -54,12 +57,12 @@ pub(super) trait Listener {
 }
 
 /// A right-hand side together with its listener.
-pub(super) struct Listened<'a, F, L> {
-    pub(super) rhs: &'a Rhs<F>,
+pub(super) struct Listened<'a, 'c, L> {
+    pub(super) rhs: &'a Rhs<'c>,
     pub(super) listener: &'a mut L,
 }
 
-impl<F: FnMut(f64, &[f64], &mut [f64]), L: Listener> System<f64, State> for Listened<'_, F, L> {
+impl<L: Listener> System<f64, State> for Listened<'_, '_, L> {
     fn system(&self, t: f64, y: &State, dy: &mut State) {
         self.rhs.evaluate(t, y.as_slice(), dy.as_mut_slice());
     }
@@ -78,9 +81,7 @@ const CLOCK: f64 = f64::from_bits((0x3ff - 300) << 52);
 /// of all others it makes a method of order 3.
 struct Clocked<S>(S);
 
-impl<F: FnMut(f64, &[f64], &mut [f64]), L: Listener> System<f64, State>
-    for Clocked<Listened<'_, F, L>>
-{
+impl<L: Listener> System<f64, State> for Clocked<Listened<'_, '_, L>> {
     fn system(&self, _: f64, y: &State, dy: &mut State) {
         let n = y.len() - 1;
         let (y, time) = y.as_slice().split_at(n);
@@ -109,9 +110,9 @@ pub(super) struct Leg {
 
 impl Leg {
     /// Steps from `y` at `from` to `to`.
-    pub(super) fn run<F: FnMut(f64, &[f64], &mut [f64]), L: Listener>(
+    pub(super) fn run<L: Listener>(
         &self,
-        system: Listened<'_, F, L>,
+        system: Listened<'_, '_, L>,
         y: State,
     ) -> Result<Stats, IntegrationError> {
         match self.pair {

@@ -1,0 +1,527 @@
+//! Random trees and states, dual numbers along curves, dense linear algebra and comparisons.
+
+use core::ops::Range;
+
+use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, Mass};
+use dvi::{ContinuousSystem, Derivatives, DiscreteLagrangian, Lagrangian, State};
+use lie::{
+    AlgebraOver, DualOver, JET_DIRECTIONS, Jet, LieGroup, Mat3, Power, RealGroup, Rn, SO3, Scalar,
+    Tangent, Vec3, VectorSpace,
+};
+use proptest::prelude::*;
+
+/// Dual numbers, and dual numbers over them.
+pub type J = <f64 as Scalar>::Jet;
+pub type J2 = <J as Scalar>::Jet;
+pub type Velocity<S = f64> = AlgebraOver<Configuration, S>;
+pub type Momentum<S = f64> = DualOver<Configuration, S>;
+pub type Matrix = Vec<Vec<f64>>;
+
+/// A model with what it was made from, a state and a displacement.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    pub bodies: Vec<Body>,
+    pub joints: Vec<Joint>,
+    /// Gravity and the net mass of each body.
+    pub weight: Option<(Vec3, Vec<f64>)>,
+    pub model: ArticulatedBody,
+    pub g: Configuration,
+    pub f: Configuration,
+    pub xi: Velocity,
+}
+
+/// The model of these bodies, joints and weight.
+pub fn build(
+    bodies: &[Body],
+    joints: &[Joint],
+    weight: &Option<(Vec3, Vec<f64>)>,
+) -> ArticulatedBody {
+    let model = ArticulatedBody::new(bodies, joints).expect("a model");
+    match weight {
+        Some((gravity, masses)) => model.with_gravity(*gravity, masses).expect("a weight"),
+        None => model,
+    }
+}
+
+impl Sample {
+    /// The same with other masses or weights.
+    pub fn rebuilt(mut self) -> Self {
+        self.model = build(&self.bodies, &self.joints, &self.weight);
+        self
+    }
+
+    /// The same without a fluid: each mass a number.
+    pub fn dry(mut self) -> Self {
+        for body in &mut self.bodies {
+            body.mass = Mat3::diagonal([body.mass.trace() / 3.0; 3]);
+        }
+        self.rebuilt()
+    }
+
+    /// The momentum of the velocity.
+    pub fn mu(&self) -> Momentum {
+        Lagrangian::legendre(&self.model, 0.0, &self.g, &self.xi)
+    }
+
+    pub fn state(&self) -> State<Configuration> {
+        let (g, mu) = (self.g.clone(), self.mu());
+        State { t: 0.25, g, mu }
+    }
+
+    /// Gravity and net mass of each body; zero without a weight.
+    pub fn weights(&self) -> (Vec3, Vec<f64>) {
+        let none = || (Vec3::zero(), vec![0.0; self.bodies.len()]);
+        self.weight.clone().unwrap_or_else(none)
+    }
+
+    /// The sum of the weights.
+    pub fn force(&self) -> Vec3 {
+        let (gravity, masses) = self.weights();
+        gravity * masses.iter().sum::<f64>()
+    }
+
+    /// Whether nothing depends on where the whole is.
+    pub fn floats(&self) -> bool {
+        self.weights().1.iter().sum::<f64>() == 0.0
+    }
+
+    /// The centres from the first body on: $x_p + R_p d_{pi} - R_i d_{ip}$.
+    pub fn centres<S: Scalar>(&self, (r0, x, r): &Configuration<S>) -> Vec<Vec3<S>> {
+        let attitude = |i: usize| if i == 0 { r0 } else { &r[i - 1] };
+        let mut centres = vec![x.vec3()];
+        for joint in &self.joints {
+            let on = attitude(joint.parent).rotate(joint.at_parent.lift());
+            let back = attitude(joint.child).rotate(joint.at_child.lift());
+            centres.push(centres[joint.parent] + on - back);
+        }
+        centres
+    }
+
+    /// $U = -\sum_i m_i \gamma \cdot x_i$.
+    pub fn potential<S: Scalar>(&self, g: &Configuration<S>) -> S {
+        let (gravity, masses) = self.weights();
+        let weighed = masses.into_iter().zip(self.centres(g));
+        weighed.fold(S::zero(), |sum, (m, x)| sum - (gravity * m).lift().dot(x))
+    }
+
+    /// $\sum_i x_i \times m_i \gamma$: the moment of the weights about the origin.
+    pub fn moment(&self) -> Vec3 {
+        let (gravity, masses) = self.weights();
+        let weighed = masses.into_iter().zip(self.centres(&self.g));
+        weighed.fold(Vec3::zero(), |sum, (m, x)| sum + x.cross(gravity * m))
+    }
+
+    /// The velocity of each centre in the reference frame as a linear map of $\xi$, by its 3 rows:
+    /// $\dot x_i = \dot x_p - R_p \hat d_{pi} \Omega_p + R_i \hat d_{ip} \Omega_i$.
+    pub fn jacobians(&self) -> Vec<Matrix> {
+        let r = attitudes(&self.g);
+        let mut first = vec![vec![0.0; self.xi.dim()]; 3];
+        (0..3).for_each(|k| first[k][3 + k] = 1.0);
+        let mut jacobians = vec![first];
+        for joint in &self.joints {
+            let mut rows = jacobians[joint.parent].clone();
+            let on_parent = -(*r[joint.parent].matrix() * joint.at_parent.hat());
+            let on_child = *r[joint.child].matrix() * joint.at_child.hat();
+            for (body, block) in [(joint.parent, on_parent), (joint.child, on_child)] {
+                for (k, row) in rows.iter_mut().enumerate() {
+                    let row = &mut row[rates(body)];
+                    (0..3).for_each(|j| row[j] += block[(k, j)]);
+                }
+            }
+            jacobians.push(rows);
+        }
+        jacobians
+    }
+
+    /// The velocities of the centres in the reference frame.
+    pub fn centre_velocities(&self) -> Vec<Vec3> {
+        let xi = self.xi.coordinates();
+        let velocity = |j: Matrix| product(&j, &xi).try_into().map(Vec3).expect("three rows");
+        self.jacobians().into_iter().map(velocity).collect()
+    }
+
+    /// The inertia of any tree, $\sum_i V_i^T R_i M_i R_i^T V_i$ with the linear maps $V_i$, and each $J_i$ on the diagonal.
+    pub fn inertia(&self) -> Matrix {
+        let mut out = vec![vec![0.0; self.xi.dim()]; self.xi.dim()];
+        let moving = self
+            .bodies
+            .iter()
+            .zip(self.jacobians())
+            .zip(attitudes(&self.g));
+        for (i, ((body, v), r)) in moving.enumerate() {
+            let m = r.matrix().conjugate(body.mass);
+            for (row, entries) in out.iter_mut().enumerate() {
+                let momentum = [0, 1, 2].map(|k| (0..3).map(|l| v[l][row] * m[(l, k)]).sum());
+                let momentum: [f64; 3] = momentum;
+                for (column, entry) in entries.iter_mut().enumerate() {
+                    *entry += (0..3).map(|k| momentum[k] * v[k][column]).sum::<f64>();
+                }
+            }
+            let own = rates(i);
+            for (k, row) in own.clone().enumerate() {
+                (0..3).for_each(|l| out[row][own.start + l] += body.inertia[(k, l)]);
+            }
+        }
+        out
+    }
+}
+
+/// The coordinates of body `i`'s rotation: those of the first body come before its translation's.
+pub fn rates(i: usize) -> Range<usize> {
+    let first = if i == 0 { 0 } else { 3 + 3 * i };
+    first..first + 3
+}
+
+pub fn attitudes(g: &Configuration) -> Vec<SO3> {
+    core::iter::once(g.0).chain(g.2.iter().copied()).collect()
+}
+
+pub fn vector(size: f64) -> impl Strategy<Value = Vec3> {
+    prop::array::uniform3(-size..size).prop_map(Vec3)
+}
+
+/// $A A^T + 0.2$: symmetric, positive definite and full.
+pub fn spd() -> impl Strategy<Value = Mat3> {
+    prop::array::uniform3(prop::array::uniform3(-1.0..1.0))
+        .prop_map(|a| Mat3(a).conjugate(Mat3::identity()) + Mat3::diagonal([0.2; 3]))
+}
+
+pub fn body() -> impl Strategy<Value = Body> {
+    (spd(), spd()).prop_map(|(mass, inertia)| Body { mass, inertia })
+}
+
+/// Any rotation.
+pub fn attitude() -> impl Strategy<Value = SO3> {
+    let length = |q: &[f64; 4]| q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    prop::array::uniform4(-1.0..1.0)
+        .prop_filter("a direction", move |q| length(q) > 0.1)
+        .prop_map(SO3::from_quaternion)
+}
+
+/// How a tree branches.
+#[derive(Clone, Copy, Debug)]
+pub enum Shape {
+    /// Each body is on any before it.
+    Any,
+    Chain,
+    Star,
+    /// A chain of the even bodies, an odd one on each.
+    Comb,
+}
+
+impl Shape {
+    /// The bodies that may carry body `i`.
+    pub fn parents(self, i: usize) -> Range<usize> {
+        match self {
+            Self::Any => 0..i,
+            Self::Chain => i - 1..i,
+            Self::Star => 0..1,
+            Self::Comb => i + i % 2 - 2..i + i % 2 - 1,
+        }
+    }
+}
+
+/// No weight; any; and one that the whole does not feel. The net masses' sums have no rounding.
+fn weight(bodies: usize) -> impl Strategy<Value = Option<(Vec3, Vec<f64>)>> {
+    let masses = prop::collection::vec((-64..64_i32).prop_map(|m| f64::from(m) / 64.0), bodies);
+    (0..3_u8, vector(2.0), masses).prop_map(|(kind, gravity, mut masses)| {
+        if kind == 1 {
+            masses[0] -= masses.iter().sum::<f64>();
+        }
+        (kind > 0).then_some((gravity, masses))
+    })
+}
+
+/// A tree of `others` bodies beside the first. Attitudes anywhere, the displacement up to `size` in angle and length.
+pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value = Sample> {
+    let parents: Vec<_> = (1..=others).map(|i| shape.parents(i)).collect();
+    let points = prop::collection::vec((vector(1.5), vector(1.5)), others);
+    let displacement = move || vector(size / 3_f64.sqrt());
+    let turns = prop::collection::vec(displacement().prop_map(|w| SO3::exp(&w.into())), others + 1);
+    (
+        prop::collection::vec(body(), others + 1),
+        (parents, points, weight(others + 1)),
+        (vector(5.0), prop::collection::vec(attitude(), others + 1)),
+        (displacement(), turns),
+        (vector(1.0), prop::collection::vec(vector(1.0), others + 1)),
+    )
+        .prop_map(
+            |(bodies, (parents, points, weight), (x, r), (dx, f), (v, omega))| {
+                let joint = |(i, (parent, (at_parent, at_child)))| Joint {
+                    parent,
+                    child: i + 1,
+                    at_parent,
+                    at_child,
+                };
+                let joints: Vec<_> = parents
+                    .into_iter()
+                    .zip(points)
+                    .enumerate()
+                    .map(joint)
+                    .collect();
+                let pose = |x: Vec3, r: &[SO3]| (r[0], Rn(x.0), Power::new(r[1..].to_vec()));
+                let rates: Vec<Tangent<3>> = omega.into_iter().map(Tangent::from).collect();
+                Sample {
+                    model: build(&bodies, &joints, &weight),
+                    bodies,
+                    joints,
+                    weight,
+                    g: pose(x, &r),
+                    f: pose(dx, &f),
+                    xi: (rates[0], v.into(), Power::new(rates[1..].to_vec())),
+                }
+            },
+        )
+}
+
+/// 1 to 5 bodies, displacements tiny and large.
+pub fn any_sample() -> impl Strategy<Value = Sample> {
+    (0..=4_usize, sizes()).prop_flat_map(|(others, size)| sample_of(Shape::Any, others, size))
+}
+
+/// The paper's three bodies: a star without a weight.
+pub fn three_bodies() -> impl Strategy<Value = Sample> {
+    sizes().prop_flat_map(|size| {
+        sample_of(Shape::Star, 2, size).prop_map(|sample| {
+            Sample {
+                weight: None,
+                ..sample
+            }
+            .rebuilt()
+        })
+    })
+}
+
+fn sizes() -> impl Strategy<Value = f64> {
+    prop::sample::select(vec![1e-6, 1e-3, 0.1, 3.0])
+}
+
+/// The paper's notation for three bodies: $M_i$, $J_i$, $d_{0i}$ and $d_{i0}$ by the index $i$.
+pub struct Paper {
+    pub m: [Mat3; 3],
+    pub j: [Mat3; 3],
+    pub d_0: [Vec3; 3],
+    pub d: [Vec3; 3],
+}
+
+impl Paper {
+    pub fn new(sample: &Sample) -> Self {
+        let [one, two] = [sample.joints[0], sample.joints[1]];
+        Self {
+            m: [0, 1, 2].map(|i| sample.bodies[i].mass),
+            j: [0, 1, 2].map(|i| sample.bodies[i].inertia),
+            d_0: [Vec3::zero(), one.at_parent, two.at_parent],
+            d: [Vec3::zero(), one.at_child, two.at_child],
+        }
+    }
+
+    /// The matrix (4), block by block.
+    pub fn inertia(&self, r: [Mat3; 3]) -> Matrix {
+        let Self { m, j, d_0, d } = self;
+        let (r0, t) = (r[0], r.map(Mat3::transpose));
+        let (hat_0, hat) = (d_0.map(Vec3::hat), d.map(Vec3::hat));
+        let top = |i: usize| hat_0[i] * t[0] * r[i] * m[i] * t[i] * r0 * hat_0[i];
+        let right = |i: usize| hat_0[i] * t[0] * r[i] * m[i] * t[i];
+        let left = |i: usize| r[i] * m[i] * t[i] * r0 * hat_0[i];
+        let mass = |i: usize| r[i] * m[i] * t[i];
+        let zero = Mat3::zero();
+        let blocks = [
+            [
+                j[0] - top(1) - top(2),
+                right(1) + right(2),
+                hat_0[1] * t[0] * r[1] * m[1] * hat[1],
+                hat_0[2] * t[0] * r[2] * m[2] * hat[2],
+            ],
+            [
+                -left(1) - left(2),
+                mass(0) + mass(1) + mass(2),
+                r[1] * m[1] * hat[1],
+                r[2] * m[2] * hat[2],
+            ],
+            [
+                hat[1] * m[1] * t[1] * r0 * hat_0[1],
+                -(hat[1] * m[1] * t[1]),
+                j[1] - hat[1] * m[1] * hat[1],
+                zero,
+            ],
+            [
+                hat[2] * m[2] * t[2] * r0 * hat_0[2],
+                -(hat[2] * m[2] * t[2]),
+                zero,
+                j[2] - hat[2] * m[2] * hat[2],
+            ],
+        ];
+        let entry = |row: usize, column: usize| blocks[row / 3][column / 3][(row % 3, column % 3)];
+        (0..12)
+            .map(|row| (0..12).map(|column| entry(row, column)).collect())
+            .collect()
+    }
+}
+
+/// The matrices $R_0, R_1, R_2$ of a configuration or displacement of three bodies.
+pub fn matrices(g: &Configuration) -> [Mat3; 3] {
+    [*g.0.matrix(), *g.2[0].matrix(), *g.2[1].matrix()]
+}
+
+/// The coordinates $(p_0, p_x, p_1, p_2)$.
+pub fn stacked(blocks: [Vec3; 4]) -> Vec<f64> {
+    blocks.into_iter().flat_map(|block| block.0).collect()
+}
+
+/// $g \exp(\eta)$ to first order, with the dual directions from `first` on.
+pub fn moved(g: &Configuration, first: usize) -> Configuration<J> {
+    let g = g.lift::<J>();
+    let mut eta = g.zero_algebra();
+    lie::seed(&mut eta, first);
+    g.compose(&LieGroup::cayley(&eta))
+}
+
+/// $x + \epsilon\,\dot x$, $\epsilon$ being the first dual direction.
+pub fn along<V, W>(zero: &W, x: &V, dot: &V) -> W
+where
+    V: VectorSpace<Scalar = f64>,
+    W: VectorSpace<Scalar = J>,
+{
+    let mut curve = zero.clone();
+    for i in 0..x.dim() {
+        let slope = J::constant(dot.get(i));
+        curve.set(i, J::constant(x.get(i)) + J::variable(0.0, 0) * slope);
+    }
+    curve
+}
+
+/// The continuous flow through a state to first order: $\dot g = g\,\xi$, $\dot\mu = \mathrm{ad}^*_\xi \mu + \tau$.
+pub fn flow(sample: &Sample) -> (Configuration<J>, Momentum<J>) {
+    let (g, mu) = (&sample.g, sample.mu());
+    let (xi, tau) = velocity_and_force::<f64, _>(&sample.model, g, &mu);
+    let mut mu_dot = Configuration::coadjoint_bracket(&xi, &mu);
+    mu_dot.add_scaled(1.0, &tau);
+    let lifted = g.lift::<J>();
+    let step: Velocity<J> = along(&lifted.zero_algebra(), &xi.zero_like(), &xi);
+    let g = lifted.compose(&LieGroup::cayley(&step));
+    (g, along(&lifted.zero_dual(), &mu, &mu_dot))
+}
+
+/// Into storage filled with what must not survive.
+pub fn velocity_and_force<S: Scalar, M: Mass>(
+    model: &ArticulatedBody<M>,
+    g: &Configuration<S>,
+    mu: &Momentum<S>,
+) -> (Velocity<S>, Momentum<S>) {
+    let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
+    spoil(&mut xi);
+    spoil(&mut tau);
+    let mut workspace = ContinuousSystem::workspace::<S>(model, g);
+    model.velocity_and_force::<S>(S::zero(), g, mu, &mut workspace, &mut xi, &mut tau);
+    (xi, tau)
+}
+
+/// The closed derivatives, into storage filled with what must not survive.
+pub fn closed<S: Scalar, M: Mass>(
+    model: &ArticulatedBody<M>,
+    g: &Configuration<S>,
+    f: &Configuration<S>,
+    h: S,
+) -> Derivatives<Configuration, S> {
+    let mut out = Derivatives::new(g);
+    spoil(&mut out.d_f);
+    spoil(&mut out.d_g);
+    model.derivatives(S::zero(), g, f, h, &mut out);
+    out
+}
+
+/// The derivatives by dual numbers.
+pub fn by_jets<S: Scalar>(
+    model: &ArticulatedBody,
+    g: &Configuration<S>,
+    f: &Configuration<S>,
+    h: S,
+) -> Derivatives<Configuration, S> {
+    let mut out = Derivatives::new(g);
+    out.by_jets(model, S::zero(), g, f, h);
+    out
+}
+
+/// $\mathsf T_e^* \mathsf L_g \cdot \mathbf D_g L$ by dual numbers.
+pub fn force_by_jets(sample: &Sample) -> Vec<f64> {
+    let Sample { model, g, xi, .. } = sample;
+    let still = along(&g.lift::<J>().zero_algebra(), xi, &xi.zero_like());
+    let mut force = vec![];
+    for first in (0..xi.dim()).step_by(JET_DIRECTIONS) {
+        let value = Lagrangian::value::<J>(model, &moved(g, first), &still);
+        force.extend((0..JET_DIRECTIONS).map(|d| value.partial(d)));
+    }
+    force.truncate(xi.dim());
+    force
+}
+
+/// Fills with NaN, so that a coordinate that is not written shows.
+pub fn spoil<V: VectorSpace>(x: &mut V) {
+    (0..x.dim()).for_each(|i| x.set(i, V::Scalar::from_f64(f64::NAN)));
+}
+
+/// The Hessian $\mathbf D^2_\xi L$ by dual numbers over dual numbers.
+pub fn hessian(model: &ArticulatedBody, g: &Configuration, xi: &Velocity) -> Matrix {
+    let (dim, lifted) = (xi.dim(), g.lift::<J2>());
+    let mut out = vec![vec![f64::NAN; dim]; dim];
+    for row in (0..dim).step_by(JET_DIRECTIONS) {
+        for column in (0..dim).step_by(JET_DIRECTIONS) {
+            let (mut inner, mut moved) = (g.lift::<J>().zero_algebra(), lifted.zero_algebra());
+            lie::seed(&mut inner, column);
+            lie::seed(&mut moved, row);
+            for i in 0..dim {
+                let x = inner.get(i) + J::constant(xi.get(i));
+                moved.set(i, moved.get(i) + J2::constant(x));
+            }
+            let value = Lagrangian::value::<J2>(model, &lifted, &moved);
+            for (d, entries) in out[row..].iter_mut().take(JET_DIRECTIONS).enumerate() {
+                let entries = entries[column..].iter_mut().take(JET_DIRECTIONS);
+                let slope = value.partial(d);
+                entries.enumerate().for_each(|(e, x)| *x = slope.partial(e));
+            }
+        }
+    }
+    out
+}
+
+/// Solves $A x = b$ by Gauss's elimination with row pivoting.
+pub fn solve(a: &Matrix, b: &[f64]) -> Vec<f64> {
+    let (n, mut rows) = (b.len(), a.clone());
+    rows.iter_mut().zip(b).for_each(|(row, b)| row.push(*b));
+    for k in 0..n {
+        let largest = (k..n).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()));
+        rows.swap(k, largest.expect("a row"));
+        let (above, below) = rows.split_at_mut(k + 1);
+        for row in below {
+            let factor = row[k] / above[k][k];
+            (k..=n).for_each(|j| row[j] -= factor * above[k][j]);
+        }
+    }
+    let mut x = vec![0.0; n];
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|j| rows[k][j] * x[j]).sum();
+        x[k] = (rows[k][n] - known) / rows[k][k];
+    }
+    x
+}
+
+/// $A x$.
+pub fn product(a: &Matrix, x: &[f64]) -> Vec<f64> {
+    let row = |row: &Vec<f64>| row.iter().zip(x).map(|(a, x)| a * x).sum();
+    a.iter().map(row).collect()
+}
+
+/// The largest magnitude; NaN counts as infinite.
+pub fn largest(x: &[f64]) -> f64 {
+    let size = |x: &f64| if x.is_nan() { f64::INFINITY } else { x.abs() };
+    x.iter().map(size).fold(0.0, f64::max)
+}
+
+/// Asserts that no entry of `a` and `b` differs by more than `tolerance`.
+#[track_caller]
+pub fn assert_close(a: &[f64], b: &[f64], tolerance: f64) {
+    assert_eq!(a.len(), b.len());
+    let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+    let worst = largest(&difference);
+    assert!(worst <= tolerance, "{worst:e} > {tolerance:e}: {a:?} {b:?}");
+}

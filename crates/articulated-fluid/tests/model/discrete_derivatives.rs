@@ -1,0 +1,133 @@
+//! The derivatives (29)–(33) of the discrete Lagrangian (22) against dual numbers, differences and invariance.
+
+use articulated_fluid::Configuration;
+use dvi::{DiscreteLagrangian, Lagrangian};
+use lie::{JET_DIRECTIONS, Jet, LieGroup, R3, SO3, Vec3, VectorSpace};
+use proptest::prelude::*;
+
+use crate::common::*;
+
+const H: f64 = 1e-3;
+
+/// The numbers that a momentum over the duals is made of: value, then derivatives, of each coordinate.
+fn numbers(mu: &Momentum<J>) -> Vec<f64> {
+    let one =
+        |x: J| core::iter::once(x.value()).chain((0..JET_DIRECTIONS).map(move |d| x.partial(d)));
+    mu.coordinates().into_iter().flat_map(one).collect()
+}
+
+/// The size of what the sums of (29)–(33) are made of, times $h$: the rounding is relative to it.
+fn scale(sample: &Sample) -> f64 {
+    let turns = core::iter::once(&sample.f.0).chain(sample.f.2.iter());
+    let turns = turns.map(|f| f.minus_identity().frobenius());
+    30.0 * turns.fold(sample.f.1.vec3().norm(), f64::max)
+}
+
+/// The size of the weights' part, times $h$: forces times lengths.
+fn weighs(sample: &Sample) -> f64 {
+    let (gravity, masses) = sample.weights();
+    let sizes = masses.iter().zip(sample.centres(&sample.g));
+    gravity.norm() * H * H * sizes.map(|(m, x)| m.abs() * (1.0 + x.norm())).sum::<f64>()
+}
+
+proptest! {
+    #[test]
+    fn the_closed_form_is_the_derivative_by_dual_numbers(sample in any_sample()) {
+        let Sample { model, g, f, .. } = &sample;
+        let (closed, jets) = (closed(model, g, f, H), by_jets(model, g, f, H));
+        // In d_f the duals cancel off-diagonal terms up to 30, however small the displacement is.
+        // d_g has no such terms, and is quadratic in a small displacement: relative accuracy in both.
+        let (size, weighs) = (scale(&sample), weighs(&sample));
+        let small = size * size.min(1.0) + weighs;
+        assert_close(&closed.d_f.coordinates(), &jets.d_f.coordinates(), 1e-14 * (1.0 + size) / H);
+        assert_close(&closed.d_g.coordinates(), &jets.d_g.coordinates(), 4e-15 * small / H);
+    }
+
+    #[test]
+    fn the_closed_form_is_the_derivative_by_differences(sample in any_sample()) {
+        /// The step of the difference: truncation 1e-10, rounding 1e-16 / 1e-5, both times a size up to 3e3.
+        const STEP: f64 = 1e-5;
+        const TOLERANCE: f64 = 3e-8;
+        let Sample { model, g, f, .. } = &sample;
+        let value = |g: &Configuration, f: &Configuration| DiscreteLagrangian::value(model, g, f, 1.0);
+        let derivatives = closed(model, g, f, 1.0);
+        let dim = derivatives.d_f.dim();
+        let mut differences = [vec![], vec![]];
+        for i in 0..dim {
+            let mut step = g.zero_algebra();
+            let mut moved = |g: &Configuration, size: f64| {
+                step.set(i, size);
+                g.compose(&LieGroup::exp(&step))
+            };
+            let f_side = value(g, &moved(f, STEP)) - value(g, &moved(f, -STEP));
+            let g_side = value(&moved(g, STEP), f) - value(&moved(g, -STEP), f);
+            differences[0].push(f_side / (2.0 * STEP));
+            differences[1].push(g_side / (2.0 * STEP));
+        }
+        assert_close(&derivatives.d_f.coordinates(), &differences[0], TOLERANCE);
+        assert_close(&derivatives.d_g.coordinates(), &differences[1], TOLERANCE);
+    }
+
+    #[test]
+    fn the_closed_form_holds_over_dual_numbers(sample in any_sample(), h in 0.5..2.0_f64) {
+        let Sample { model, g, f, .. } = &sample;
+        let h = J::variable(h, 5);
+        for first in (0..g.zero_dual().dim()).step_by(JET_DIRECTIONS) {
+            let (g, f) = (moved(g, first), moved(f, first));
+            let (closed, jets) = (closed(model, &g, &f, h), by_jets(model, &g, &f, h));
+            // Rounding of second derivatives of a size up to 1e3.
+            assert_close(&numbers(&closed.d_f), &numbers(&jets.d_f), 1e-12);
+            assert_close(&numbers(&closed.d_g), &numbers(&jets.d_g), 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_position_enters_by_the_weight_alone(sample in any_sample(), x in vector(1e6)) {
+        let Sample { model, g, f, .. } = &sample;
+        let elsewhere = (g.0, R3::from(x), g.2.clone());
+        let (here, there) = (closed(model, g, f, H), closed(model, &elsewhere, f, H));
+        prop_assert_eq!(here.d_f, there.d_f);
+        prop_assert_eq!(&here.d_g, &there.d_g);
+        let value = |g| DiscreteLagrangian::value(model, g, f, H);
+        if sample.floats() {
+            prop_assert_eq!(here.d_g.1.vec3(), Vec3::zero());
+            prop_assert_eq!(value(g), value(&elsewhere));
+        }
+        let force = sample.force();
+        assert_close(&here.d_g.1.0, &(force * H).0, 1e-15 * H * force.norm());
+        // Rounding of forces times the way.
+        let work = force.dot(x - g.1.vec3()) * H;
+        let size = value(g).abs() + H * force.norm() * x.norm();
+        assert_close(&[value(&elsewhere) - value(g)], &[work], 1e-15 * size);
+        let cyclic = if sample.floats() { 3..6 } else { 0..0 };
+        prop_assert_eq!(DiscreteLagrangian::cyclic(model), cyclic.clone());
+        prop_assert_eq!(Lagrangian::cyclic(model), cyclic);
+        let keeping = model.clone().keep_translation();
+        prop_assert!(DiscreteLagrangian::cyclic(&keeping).is_empty());
+    }
+
+    #[test]
+    fn a_rotation_of_the_whole_system_and_of_gravity_changes_nothing(sample in any_sample(), q in attitude()) {
+        let Sample { model, g, f, .. } = &sample;
+        let whole = |r: &SO3| q.compose(r);
+        let rotated = (whole(&g.0), R3::from(q.rotate(g.1.vec3())), g.2.iter().map(whole).collect());
+        let carried = (f.0, R3::from(q.rotate(f.1.vec3())), f.2.clone());
+        let mut turned = sample.clone();
+        if let Some((gravity, _)) = &mut turned.weight {
+            *gravity = q.rotate(*gravity);
+        }
+        let before = DiscreteLagrangian::value(model, g, f, H);
+        let after = DiscreteLagrangian::value(&turned.rebuilt().model, &rotated, &carried, H);
+        // Rounding of a quadratic form.
+        let (size, weighs) = (scale(&sample), weighs(&sample));
+        let tolerance = (1e-16 * size * size + 1e-15 * weighs) / H;
+        assert_close(&[after], &[before], tolerance);
+        // Its derivative at the identity: the moments on all attitudes balance those of the displaced momentum and the weights.
+        let derivatives = closed(model, g, f, H);
+        let moments = g.2.iter().zip(derivatives.d_g.2.iter()).map(|(r, d)| r.rotate(d.vec3()));
+        let moment = moments.fold(g.0.rotate(derivatives.d_g.0.vec3()), |sum, m| sum + m);
+        let moment = moment + g.1.vec3().cross(derivatives.d_g.1.vec3());
+        let displaced = f.1.vec3().cross(derivatives.d_f.1.vec3());
+        assert_close(&moment.0, &(sample.moment() * H - displaced).0, tolerance);
+    }
+}

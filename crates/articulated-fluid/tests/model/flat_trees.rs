@@ -1,0 +1,206 @@
+//! Random trees whose motion has a mirror plane, anywhere in space.
+
+use articulated_fluid::planar::{PlanarBody, PlanarConfiguration, Plane};
+use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
+use dvi::{Lagrangian, State};
+use lie::{AlgebraOver, LieGroup, Mat3, Power, Rn, SO2, SO3, Tangent, Vec3};
+use proptest::prelude::*;
+
+use crate::common::{attitude, spd};
+
+/// A tree in the plane $z = 0$, body by body, each with the frame and the motion that it is given.
+#[derive(Clone, Debug)]
+pub struct Part {
+    pub mass: Mat3,
+    pub inertia: Mat3,
+    /// Modulo the bodies before.
+    pub parent: usize,
+    pub at_parent: [f64; 2],
+    pub at_child: [f64; 2],
+    /// The body's frame seen from one with its third axis along the normal.
+    pub frame: SO3,
+    pub angle: f64,
+    pub rate: f64,
+    pub net_mass: f64,
+}
+
+#[derive(Clone, Debug)]
+pub struct Flat {
+    pub parts: Vec<Part>,
+    /// The plane's frame in space.
+    pub world: SO3,
+    pub position: [f64; 3],
+    pub velocity: [f64; 2],
+    pub gravity: Option<[f64; 2]>,
+}
+
+fn flat(x: [f64; 2]) -> Vec3 {
+    Vec3([x[0], x[1], 0.0])
+}
+
+fn about_z(angle: f64) -> SO3 {
+    SO3::exp(&Tangent([0.0, 0.0, angle]))
+}
+
+impl Flat {
+    pub fn model(&self) -> ArticulatedBody {
+        let body = |part: &Part| Body {
+            mass: part.frame.matrix().conjugate(part.mass),
+            inertia: part.frame.matrix().conjugate(part.inertia),
+        };
+        let bodies: Vec<Body> = self.parts.iter().map(body).collect();
+        let joint = |child: usize| {
+            let (part, parent) = (&self.parts[child], self.parts[child].parent % child);
+            Joint {
+                parent,
+                child,
+                at_parent: self.parts[parent].frame.rotate(flat(part.at_parent)),
+                at_child: part.frame.rotate(flat(part.at_child)),
+            }
+        };
+        let joints: Vec<Joint> = (1..self.parts.len()).map(joint).collect();
+        let model = ArticulatedBody::new(&bodies, &joints).expect("a model");
+        let Some(gravity) = self.gravity else {
+            return model;
+        };
+        let net: Vec<f64> = self.parts.iter().map(|part| part.net_mass).collect();
+        let gravity = self.world.rotate(flat(gravity));
+        model.with_gravity(gravity, &net).expect("a model")
+    }
+
+    pub fn configuration(&self) -> Configuration {
+        let attitude = |part: &Part| {
+            let turned = self.world.compose(&about_z(part.angle));
+            turned.compose(&part.frame.inverse())
+        };
+        let x = self.world.rotate(Vec3(self.position));
+        let tails = self.parts[1..].iter().map(attitude).collect();
+        (attitude(&self.parts[0]), x.into(), tails)
+    }
+
+    pub fn velocity(&self) -> AlgebraOver<Configuration, f64> {
+        let rate = |part: &Part| {
+            let spin = part.frame.rotate(Vec3([0.0, 0.0, part.rate]));
+            Tangent::from(spin)
+        };
+        let velocity = self.world.rotate(flat(self.velocity));
+        let tails = self.parts[1..].iter().map(rate).collect();
+        (rate(&self.parts[0]), velocity.into(), tails)
+    }
+
+    pub fn state(&self) -> State<Configuration> {
+        self.model()
+            .state(0.0, self.configuration(), &self.velocity())
+    }
+
+    pub fn plane(&self) -> Plane {
+        Plane::find(&self.model(), &self.state()).expect("a plane")
+    }
+
+    pub fn planar(&self) -> (PlanarBody, State<PlanarConfiguration>) {
+        let plane = self.plane();
+        (plane.model(), plane.project(&self.state()))
+    }
+}
+
+/// Block diagonal with the third axis apart.
+fn mirrored() -> impl Strategy<Value = Mat3> {
+    spd().prop_map(|a| {
+        let [[xx, xy, _], [yx, yy, _], [_, _, zz]] = a.0;
+        Mat3([[xx, xy, 0.0], [yx, yy, 0.0], [0.0, 0.0, zz]])
+    })
+}
+
+fn point() -> impl Strategy<Value = [f64; 2]> {
+    prop::array::uniform2(-1.5..1.5)
+}
+
+fn part() -> impl Strategy<Value = Part> {
+    let motion = (-3.0..3.0, -1.0..1.0, -1.0..1.0);
+    (
+        mirrored(),
+        mirrored(),
+        0..8_usize,
+        (point(), point()),
+        attitude(),
+        motion,
+    )
+        .prop_map(
+            |(mass, inertia, parent, (at_parent, at_child), frame, (angle, rate, net_mass))| Part {
+                mass,
+                inertia,
+                parent,
+                at_parent,
+                at_child,
+                frame,
+                angle,
+                rate,
+                net_mass,
+            },
+        )
+}
+
+/// One to five bodies, with and without a weight.
+pub fn any_flat() -> impl Strategy<Value = Flat> {
+    let position = prop::array::uniform3(-5.0..5.0);
+    let parts = prop::collection::vec(part(), 1..=5);
+    (
+        parts,
+        attitude(),
+        position,
+        point(),
+        prop::option::of(point()),
+    )
+        .prop_map(|(parts, world, position, velocity, gravity)| Flat {
+            parts,
+            world,
+            position,
+            velocity,
+            gravity,
+        })
+}
+
+/// A displacement in the plane, up to `size` in angle and length.
+pub fn displacement(bodies: usize, size: f64) -> impl Strategy<Value = PlanarConfiguration> {
+    let angles = prop::collection::vec(-size..size, bodies);
+    (angles, prop::array::uniform2(-size..size)).prop_map(|(angles, x)| {
+        let turns: Vec<SO2> = angles.into_iter().map(SO2::from_angle).collect();
+        (turns[0], Rn(x), Power::new(turns[1..].to_vec()))
+    })
+}
+
+/// A head with two tails in line along x, of ellipsoidal inertia, that beat about z.
+pub fn fish() -> Flat {
+    let part = |size: f64, at: f64, angle: f64, rate: f64| Part {
+        mass: Mat3::diagonal([1.2, 2.2, 3.0]) * size,
+        inertia: Mat3::diagonal([0.3, 0.5, 0.4]) * (size * size),
+        parent: 0,
+        at_parent: [at, 0.0],
+        at_child: [-0.7 * at, 0.0],
+        frame: SO3::identity(),
+        angle,
+        rate,
+        net_mass: 0.0,
+    };
+    Flat {
+        parts: vec![
+            part(1.0, 0.0, 0.1, 0.2),
+            part(0.5, -0.9, 0.4, 1.0),
+            part(0.5, 0.9, -0.3, -0.6),
+        ],
+        world: SO3::identity(),
+        position: [0.3, -0.2, 0.7],
+        velocity: [0.4, 0.1],
+        gravity: None,
+    }
+}
+
+/// The same motion in another place of space, the bodies in other frames.
+pub fn moved(mut flat: Flat, seed: f64) -> Flat {
+    let turn = |k: f64| SO3::exp(&Tangent([seed * k, 1.0 - seed, k - 1.3]));
+    flat.world = turn(0.7);
+    for (i, part) in flat.parts.iter_mut().enumerate() {
+        part.frame = turn(1.1 + i as f64);
+    }
+    flat
+}

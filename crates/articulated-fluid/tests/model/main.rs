@@ -1,0 +1,15 @@
+//! The model in space and in the plane, against its formulas and on the scenes of the collection: one program, for what they
+//! share is compiled once.
+
+mod acceleration_form;
+mod common;
+mod conserved;
+mod continuous_model;
+mod discrete_derivatives;
+mod flat_trees;
+mod model_errors;
+mod paper_formulas;
+mod planar;
+mod planar_plane;
+mod scenes_files;
+mod tree;

@@ -1,0 +1,88 @@
+//! Compositions: order, symmetry, symplecticity.
+
+use dvi::{
+    Adjoint, Composition, DiscreteLagrangian, Integrator, Lagrangian, LeftPoint, Midpoint, State,
+    Variational, laws,
+};
+
+use crate::common::{self, Brake, Driven, Sinking, Top, driven, sinking, top};
+
+fn order<L: DiscreteLagrangian + Clone, const P: u32>(
+    lagrangian: &L,
+    state: &State<L::Group>,
+    steps: &[u32],
+) {
+    let integrator = || Composition::<_, P>::new(lagrangian.clone());
+    let order = laws::observed_order(integrator, state, 2.0, steps).unwrap();
+    println!("order {P}: {:.3} {:?}", order.slope, order.errors);
+    assert!((order.slope - f64::from(P)).abs() < 0.2, "{order:?}");
+}
+
+macro_rules! compositions {
+    ($($name:ident: $lagrangian:expr, $state:expr, $eighth:expr;)+) => { $(
+        #[test]
+        fn $name() {
+            let (lagrangian, state) = ($lagrangian, $state);
+            order::<_, 2>(&lagrangian, &state, &[64, 128, 256]);
+            order::<_, 4>(&lagrangian, &state, &[32, 64, 128]);
+            order::<_, 6>(&lagrangian, &state, &[16, 24, 32]);
+            order::<_, 8>(&lagrangian, &state, &$eighth);
+            let mut integrator = Composition::<_, 8>::new(lagrangian);
+            let states = [state];
+            laws::check_symplecticity(&mut integrator, &states, 0.1).unwrap();
+            laws::check_reversibility(&mut integrator, &states, 0.1).unwrap();
+        }
+    )+ };
+}
+
+compositions! {
+    of_a_one_sided_rule_on_so3: Top.discretise::<LeftPoint>(), top(), [8, 10, 12];
+    of_a_symmetric_rule_on_so3: Top.discretise::<Midpoint>(), top(), [12, 14, 16];
+    of_a_one_sided_rule_on_se3: Sinking.discretise::<LeftPoint>(), sinking(), [10, 12, 14];
+    of_a_driven_particle: Driven.discretise::<LeftPoint>(), driven(), [12, 14, 16];
+}
+
+#[test]
+fn a_force_is_composed_too() {
+    order::<_, 2>(
+        &Top.discretise::<LeftPoint>().with_force(Brake(0.3)),
+        &top(),
+        &[64, 128, 256],
+    );
+    order::<_, 4>(
+        &Top.discretise::<LeftPoint>().with_force(Brake(0.3)),
+        &top(),
+        &[32, 64, 128],
+    );
+}
+
+#[test]
+fn the_adjoint_is_the_inverse_of_the_step_backwards() {
+    let discrete = Sinking.discretise::<LeftPoint>();
+    laws::check(&Adjoint(discrete), &[sinking()], 0.1).unwrap();
+    let mut state = sinking();
+    Variational::new(Adjoint(discrete))
+        .step(&mut state, 0.1)
+        .unwrap();
+    Variational::new(discrete).step(&mut state, -0.1).unwrap();
+    assert!(common::distance(&state, &sinking()) < 1e-12);
+}
+
+#[test]
+fn a_refused_part_undoes_the_parts_before() {
+    let (mut state, mut integrator) = (
+        top(),
+        Composition::<_, 4>::new(Top.discretise::<LeftPoint>()),
+    );
+    integrator.step(&mut state, 0.1).unwrap();
+    let before = state.clone();
+    // The first parts would be solved.
+    for h in [2.0, 5.0, 50.0] {
+        if integrator.step(&mut state, h).is_err() {
+            assert_eq!(state, before);
+            return;
+        }
+        state.clone_from(&before);
+    }
+    panic!("no step was refused");
+}

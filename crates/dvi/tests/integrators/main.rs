@@ -1,0 +1,11 @@
+//! The integrators and their laws on small systems: one program, for what they share is compiled once.
+
+mod common;
+mod composition;
+mod forces;
+mod gauss;
+mod hamiltonian;
+mod laws;
+mod naive;
+mod variational;
+mod variations;

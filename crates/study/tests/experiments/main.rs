@@ -1,0 +1,8 @@
+//! The baseline, the test problems, the figures, and what the methods show on systems: one program, for what they share is
+//! compiled once.
+
+mod baseline;
+mod figure;
+mod methods;
+mod problems;
+mod systems;

@@ -1,0 +1,48 @@
+//! The paper's scene, its motion by an independent method, and how far two states are apart.
+
+use articulated_fluid::{ArticulatedBody, Configuration, Scene};
+use dvi::{Integrator, State};
+use lgvi::{articulated_fluid, dvi, lie};
+use lie::{LieGroup, SO3};
+use study::baseline::{self, Pair, Tolerance};
+use study::raw;
+
+pub fn paper() -> (ArticulatedBody, State<Configuration>) {
+    let text = include_str!("../../scenes/fish-chain.toml");
+    let scene = Scene::parse(text, "fish-chain.toml").unwrap();
+    (scene.model().unwrap(), scene.initial_state().unwrap())
+}
+
+/// The paper's scene by an explicit method of order 8 at a tight tolerance.
+pub fn reference(until: f64) -> State<Configuration> {
+    let (model, start) = paper();
+    let rhs = raw::right_hand_side(&model, &start);
+    let tolerance = Tolerance::uniform(1e-13);
+    let (pair, start) = (Pair::DormandPrince853, raw::pack(&start));
+    let samples = baseline::integrate(pair, rhs, &start, until, until, tolerance).unwrap();
+    raw::unpack(until, samples.y.last().unwrap()).unwrap()
+}
+
+/// The largest geodesic attitude error of the bodies, rad.
+pub fn attitude_error(a: &State<Configuration>, b: &State<Configuration>) -> f64 {
+    let one = |a: &SO3, b: &SO3| {
+        let log = a.inverse().compose(b).log();
+        log.unwrap_or_else(|e| e.representative).vec3().norm()
+    };
+    let tails = a.g.2.iter().zip(b.g.2.iter()).map(|(a, b)| one(a, b));
+    tails.fold(one(&a.g.0, &b.g.0), f64::max)
+}
+
+/// Takes `steps` equal steps of an integrator over `until` seconds.
+pub fn run<I: Integrator>(
+    mut integrator: I,
+    start: &State<I::Group>,
+    until: f64,
+    steps: u32,
+) -> State<I::Group> {
+    let (mut state, h) = (start.clone(), until / f64::from(steps));
+    for _ in 0..steps {
+        integrator.step(&mut state, h).unwrap();
+    }
+    state
+}
