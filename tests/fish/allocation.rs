@@ -1,9 +1,10 @@
 //! After the first step, no step allocates: with the model's inertia, and with everything from the value alone.
 
 use allocation_counter::measure;
-use articulated_fluid::OnSe3;
+use articulated_fluid::{OnSe3, Scene};
 use dvi::{Composition, Gauss, Integrator, State, Variational};
 use lgvi::{articulated_fluid, dvi};
+use study::methods::Method;
 
 use crate::common::paper;
 
@@ -56,6 +57,24 @@ fn steps_of_high_order_do_not_allocate() {
     });
     assert!(by_newton.count_total > 0);
     assert_eq!(allocations(Composition::<_, 4>::new(model), start), 0);
+}
+
+/// In space and in a plane, with masses as matrices and as numbers, under gravity.
+#[test]
+fn steps_of_any_scene_do_not_allocate() {
+    for name in ["eel", "branching-robot", "dry-chain", "planar-fish"] {
+        let path = format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let scene = Scene::load(path.as_ref()).unwrap();
+        let mut state = scene.initial_state().unwrap();
+        let mut integrator = Method::Lgvi.integrator_of_smallest(scene.smallest().unwrap().model);
+        integrator.step(&mut state, 1e-3).unwrap();
+        let steps = measure(|| {
+            for _ in 0..100 {
+                integrator.step(&mut state, 1e-3).unwrap();
+            }
+        });
+        assert_eq!(steps.count_total, 0, "{name}");
+    }
 }
 
 #[test]
