@@ -252,6 +252,16 @@ impl<S: Scalar> Elimination<S> {
     }
 }
 
+impl<M: Mass> ArticulatedBody<M> {
+    /// $\sum_i R_i M_i R_i^T$: the slope of the linear momentum in $\dot x$, and that of (31) in $\Delta x / h$.
+    #[inline(always)]
+    pub(crate) fn total_mass(&self, r: Attitudes<f64>) -> Sym3 {
+        let masses = self.masses.iter().enumerate();
+        let turned = masses.map(|(i, mass)| mass.turned(of(r, i).matrix()));
+        turned.fold(Sym3::zero(), Sym3::add)
+    }
+}
+
 /// What a step's iteration uses as its matrix: $\mathbb I(g_k)$, factorised once a step.
 #[derive(Clone, Debug)]
 pub struct Factor {
@@ -276,9 +286,7 @@ impl<M: Mass> Inertia for ArticulatedBody<M> {
     fn factorise(&self, (r0, _, r): &Configuration, factor: &mut Factor) {
         factor.r0 = *r0;
         factor.elimination.factorise(self, (r0, r));
-        let masses = self.masses.iter().enumerate();
-        let turned = masses.map(|(i, mass)| mass.turned(of((r0, r), i).matrix()));
-        factor.total_mass = turned.fold(Sym3::zero(), Sym3::add).ldl();
+        factor.total_mass = self.total_mass((r0, r)).ldl();
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! From a scene to a model and its initial state.
 
 use dvi::{Lagrangian, State};
-use lie::{LieGroup, Mat3, Rn, SO3, Sym3, Tangent, Vec3, VectorSpace};
+use lie::{LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
 
 use crate::scene::{SceneBody, SceneJoint, StartVelocity};
 use crate::{ArticulatedBody, Body, Configuration, Joint, ModelError, Scene};
@@ -27,11 +27,16 @@ impl Scene {
         let bodies: Vec<_> = self.bodies.iter().map(body).collect();
         let joints: Vec<_> = self.joints.iter().map(joint).collect();
         let model = ArticulatedBody::new(&bodies, &joints)?;
-        let net_masses: Vec<f64> = self.bodies.iter().map(|body| body.net_mass).collect();
-        match self.gravity != [0.0; 3] && net_masses.iter().any(|mass| *mass != 0.0) {
-            true => model.with_gravity(Vec3(self.gravity), &net_masses),
-            false => Ok(model),
+        if !self.has_weight() {
+            return Ok(model);
         }
+        let net_masses: Vec<f64> = self.bodies.iter().map(|body| body.net_mass).collect();
+        model.with_gravity(Vec3(self.gravity), &net_masses)
+    }
+
+    /// Whether gravity acts on a body that is heavier or lighter than what it displaces.
+    pub(crate) fn has_weight(&self) -> bool {
+        self.gravity != [0.0; 3] && self.bodies.iter().any(|body| body.net_mass != 0.0)
     }
 
     /// The state at t = 0: attitudes and velocities as given, the momentum by the Legendre transform (10).
@@ -67,7 +72,7 @@ impl Scene {
         match self.velocity {
             StartVelocity::Given(velocity) => xi.1 = Tangent(velocity),
             StartVelocity::ZeroMomentum => {
-                let total = Sym3::upper(&self.total_mass(g)).ldl();
+                let total = model.total_mass((&g.0, &g.2)).ldl();
                 // The second time for the rounding of the first.
                 for _ in 0..2 {
                     let linear = Lagrangian::legendre(model, 0.0, g, &xi).1.vec3();
@@ -77,14 +82,6 @@ impl Scene {
         }
         require(xi.1.vec3().is_finite(), "velocity")?;
         Ok(xi)
-    }
-
-    /// $\sum_i R_i M_i R_i^T$, the slope of the total linear momentum in the velocity of the head.
-    fn total_mass(&self, g: &Configuration) -> Mat3 {
-        let attitudes = core::iter::once(&g.0).chain(g.2.iter());
-        let bodies = attitudes.zip(&self.bodies);
-        let turned = bodies.map(|(r, body)| r.matrix().conjugate(Mat3(body.total_mass)));
-        turned.fold(Mat3::zero(), |sum, mass| sum + mass)
     }
 }
 

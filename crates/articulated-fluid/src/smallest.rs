@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::planar::{NotPlanar, PlanarBody, Plane};
+use crate::planar::{NotPlanar, PlanarBody, Plane, rounded};
 use crate::{ArticulatedBody, ModelError, Scene};
 
 /// A model of a scene, no larger than the scene needs.
@@ -121,14 +121,6 @@ impl Scene {
         Ok(Smallest { model, account })
     }
 
-    /// The model of this scene without any reduction, its translation among the unknowns of a step.
-    ///
-    /// # Errors
-    /// As [`Scene::model`].
-    pub fn full(&self) -> Result<SmallestModel, ModelError> {
-        Ok(SmallestModel::Fluid(self.model()?.keep_translation()))
-    }
-
     fn translation(&self) -> Reduction {
         let why = match self.has_weight() {
             false => "no force depends on where the bodies are: the linear momentum is constant",
@@ -154,10 +146,6 @@ impl Scene {
                 false => format!("{bodies} bodies hang on each other"),
             },
         }
-    }
-
-    fn has_weight(&self) -> bool {
-        self.gravity != [0.0; 3] && self.bodies.iter().any(|body| body.net_mass != 0.0)
     }
 
     fn weight_reduction(&self) -> Reduction {
@@ -212,13 +200,10 @@ impl Scene {
 
     fn plane_reduction(&self, plane: &Result<Plane, NotPlanar>) -> Reduction {
         let why = match plane {
-            Ok(plane) => {
-                // Adding zero takes the sign off a zero.
-                let [x, y, z] = plane.normal().0.map(|x| (1e6 * x).round() / 1e6 + 0.0);
-                format!(
-                    "bodies, joints and motion are symmetric under the plane normal to ({x}, {y}, {z})"
-                )
-            }
+            Ok(plane) => format!(
+                "bodies, joints and motion are symmetric under the plane normal to {}",
+                rounded(plane.normal())
+            ),
             Err(refused) => {
                 let index = format!("(body {})", refused.body);
                 let name = self

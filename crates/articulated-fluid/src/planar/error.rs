@@ -24,6 +24,13 @@ pub struct NotPlanar {
     pub normal: Vec3,
 }
 
+/// A direction to six digits, as people read it.
+pub(crate) fn rounded(direction: Vec3) -> String {
+    // Adding zero takes the sign off a zero.
+    let [x, y, z] = direction.0.map(|x| (1e6 * x).round() / 1e6 + 0.0);
+    format!("({x}, {y}, {z})")
+}
+
 impl Display for NotPlanar {
     fn fmt(&self, f: &mut Formatter) -> Result {
         let Self {
@@ -39,11 +46,10 @@ impl Display for NotPlanar {
             NotPlanarCause::VelocityOffPlane | NotPlanarCause::GravityOffPlane => String::new(),
             _ => format!(" (body {body})"),
         };
-        // Adding zero takes the sign off a zero.
-        let [x, y, z] = normal.0.map(|x| (1e6 * x).round() / 1e6 + 0.0);
+        let normal = rounded(*normal);
         write!(
             f,
-            "no motion in a plane; nearest is the one normal to ({x}, {y}, {z}), but {what}{of}: {defect:.1e} relative to the largest of its kind, where rounding makes at most 1e-12; the momenta leave the plane at {torque:.1e} N m and {force:.1e} N"
+            "no motion in a plane; nearest is the one normal to {normal}, but {what}{of}: {defect:.1e} relative to the largest of its kind, where rounding makes at most 1e-12; the momenta leave the plane at {torque:.1e} N m and {force:.1e} N"
         )
     }
 }

@@ -52,6 +52,7 @@ use vector::{Sym2, Vec2};
 use weight::Weight;
 
 pub use elimination::{Elimination, Factor};
+pub(crate) use error::rounded;
 pub use error::{NotPlanar, NotPlanarCause};
 pub use in_plane::InPlane;
 pub use plane::Plane;
