@@ -91,6 +91,7 @@ impl<M: Mass> Lagrangian for ArticulatedBody<M> {
 impl<M: Mass> ContinuousSystem for ArticulatedBody<M> {
     type Group = Configuration;
     type Workspace<S: Scalar> = Elimination<S>;
+    const INLINE: bool = true;
 
     fn workspace<S: Scalar>(&self, _: &Configuration<S>) -> Elimination<S> {
         Elimination::new(self)

@@ -11,7 +11,13 @@ pub trait ContinuousSystem {
     type Group: RealGroup;
 
     /// Storage for an evaluation over the scalar `S`; `()` where none is needed.
-    type Workspace<S: Scalar>;
+    type Workspace<S: Scalar>: Send + Sync;
+
+    /// Whether [`velocity_and_force`](Self::velocity_and_force) and all that it calls is `#[inline(always)]`.
+    ///
+    /// Only then are several states evaluated side by side in SIMD [lanes](lie::lanes): a call that is left over would cost
+    /// more than they save.
+    const INLINE: bool = false;
 
     /// Storage for [`velocity_and_force`](Self::velocity_and_force) at configurations of the shape of `g`.
     fn workspace<S: Scalar>(&self, g: &Over<Self::Group, S>) -> Self::Workspace<S>;
@@ -43,6 +49,7 @@ pub trait ContinuousSystem {
 impl<C: ContinuousSystem> ContinuousSystem for &C {
     type Group = C::Group;
     type Workspace<S: Scalar> = C::Workspace<S>;
+    const INLINE: bool = C::INLINE;
 
     fn workspace<S: Scalar>(&self, g: &Over<C::Group, S>) -> C::Workspace<S> {
         C::workspace(self, g)

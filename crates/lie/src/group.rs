@@ -30,7 +30,7 @@ pub type DualOver<G, S> = <Over<G, S> as LieGroup>::Dual;
 ///
 /// The `*_into` methods write into an existing element of the same shape; run-time-sized groups override
 /// them so that integrators step without allocating.
-pub trait LieGroup: Clone + Debug + PartialEq {
+pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The numbers.
     type Scalar: Scalar;
     /// The Lie algebra $\mathfrak g$.

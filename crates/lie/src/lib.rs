@@ -72,6 +72,7 @@
 //! * `nalgebra`: conversions to and from its vectors, rotations and isometries.
 
 mod approximate;
+mod batch;
 #[cfg(feature = "nalgebra")]
 mod convert_nalgebra;
 mod dense;
@@ -79,6 +80,7 @@ mod dual_number;
 mod error;
 mod group;
 mod kahan;
+pub mod lanes;
 pub mod laws;
 mod matrix;
 mod plane;
@@ -96,6 +98,7 @@ mod symmetric;
 mod vector;
 mod vector_space;
 
+pub use batch::Batch;
 pub use dual_number::DualNumber;
 pub use error::{NotARotation, NotUnique, OutsideChart};
 pub use group::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, seed};

@@ -29,7 +29,17 @@ pub const JET_DIRECTIONS: usize = 6;
 /// assert_eq!(hypotenuse(3.0_f32, 4.0), 5.0);
 /// ```
 pub trait Scalar:
-    Copy + Debug + PartialEq + Zero + One + NumOps + NumAssignOps + Neg<Output = Self> + 'static
+    Copy
+    + Debug
+    + PartialEq
+    + Zero
+    + One
+    + NumOps
+    + NumAssignOps
+    + Neg<Output = Self>
+    + Send
+    + Sync
+    + 'static
 {
     /// The outcome of a comparison: `bool`, or one bit a lane.
     type Mask: Copy;
@@ -53,6 +63,18 @@ pub trait Scalar:
     #[inline(always)]
     fn times(self, c: f64) -> Self {
         self * Self::from_f64(c)
+    }
+
+    /// $x a + b$, rounded once where the instructions for it are at hand.
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+
+    /// $b - x a$, likewise.
+    #[inline(always)]
+    fn neg_mul_add(self, a: Self, b: Self) -> Self {
+        b - self * a
     }
 
     /// The value without derivatives.

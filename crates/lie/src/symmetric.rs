@@ -67,10 +67,10 @@ impl<S: Scalar> Sym3<S> {
         let [xx, xy, xz, yy, yz, zz] = self.0;
         let x = S::one() / xx;
         let (yx, zx) = (xy * x, xz * x);
-        let y = S::one() / (yy - yx * xy);
-        let rest = yz - zx * xy;
+        let y = S::one() / yx.neg_mul_add(xy, yy);
+        let rest = zx.neg_mul_add(xy, yz);
         let zy = rest * y;
-        let z = S::one() / (zz - zx * xz - zy * rest);
+        let z = S::one() / zy.neg_mul_add(rest, zx.neg_mul_add(xz, zz));
         Ldl3 {
             lower: [yx, zx, zy],
             pivots: Vec3([x, y, z]),
@@ -118,8 +118,9 @@ impl<S: Scalar> Ldl3<S> {
     #[inline(always)]
     pub fn forward(&self, x: Vec3<S>) -> Vec3<S> {
         let [yx, zx, zy] = self.lower;
-        let y = x[1] - yx * x[0];
-        Vec3([x[0], y, x[2] - zx * x[0] - zy * y])
+        let y = yx.neg_mul_add(x[0], x[1]);
+        let z = zy.neg_mul_add(y, zx.neg_mul_add(x[0], x[2]));
+        Vec3([x[0], y, z])
     }
 
     /// $D^{-1} x$.
@@ -133,8 +134,9 @@ impl<S: Scalar> Ldl3<S> {
     #[inline(always)]
     pub fn backward(&self, x: Vec3<S>) -> Vec3<S> {
         let [yx, zx, zy] = self.lower;
-        let y = x[1] - zy * x[2];
-        Vec3([x[0] - yx * y - zx * x[2], y, x[2]])
+        let y = zy.neg_mul_add(x[2], x[1]);
+        let first = zx.neg_mul_add(x[2], yx.neg_mul_add(y, x[0]));
+        Vec3([first, y, x[2]])
     }
 
     /// $A^{-1} x$.

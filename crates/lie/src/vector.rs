@@ -27,17 +27,25 @@ impl<S: Scalar> Vec3<S> {
     /// $x \cdot y$.
     #[inline(always)]
     pub fn dot(self, y: Self) -> S {
-        self[0] * y[0] + self[1] * y[1] + self[2] * y[2]
+        let sum = self[1].mul_add(y[1], self[0] * y[0]);
+        self[2].mul_add(y[2], sum)
     }
 
     /// $x \times y$.
     #[inline(always)]
     pub fn cross(self, y: Self) -> Self {
         Self([
-            self[1] * y[2] - self[2] * y[1],
-            self[2] * y[0] - self[0] * y[2],
-            self[0] * y[1] - self[1] * y[0],
+            self[2].neg_mul_add(y[1], self[1] * y[2]),
+            self[0].neg_mul_add(y[2], self[2] * y[0]),
+            self[1].neg_mul_add(y[0], self[0] * y[1]),
         ])
+    }
+
+    /// $x + a y$.
+    #[inline(always)]
+    pub fn plus(self, a: S, y: Self) -> Self {
+        let [x0, x1, x2] = self.0;
+        Self([y[0].mul_add(a, x0), y[1].mul_add(a, x1), y[2].mul_add(a, x2)])
     }
 
     /// The hat map $\hat{\cdot}: \mathbb{R}^3 \to \mathfrak{so}(3)$, $\hat x y = x \times y$.

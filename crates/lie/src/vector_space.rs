@@ -10,7 +10,7 @@ use crate::{Scalar, Vec3};
 /// A finite-dimensional real vector space with fixed coordinates: a Lie algebra or its dual.
 ///
 /// Only `dim`, `get` and `set` are required. An index at or past `dim` is a caller's error and may panic.
-pub trait VectorSpace: Clone + Debug + PartialEq {
+pub trait VectorSpace: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The numbers.
     type Scalar: Scalar;
 
@@ -67,7 +67,7 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
     #[inline(always)]
     fn add_scaled(&mut self, a: Self::Scalar, y: &Self) {
         for i in 0..self.dim() {
-            self.set(i, self.get(i) + a * y.get(i));
+            self.set(i, a.mul_add(y.get(i), self.get(i)));
         }
     }
 
@@ -75,7 +75,7 @@ pub trait VectorSpace: Clone + Debug + PartialEq {
     #[inline(always)]
     fn set_sum(&mut self, x: &Self, a: Self::Scalar, y: &Self) {
         for i in 0..self.dim() {
-            self.set(i, x.get(i) + a * y.get(i));
+            self.set(i, a.mul_add(y.get(i), x.get(i)));
         }
     }
 
@@ -259,6 +259,6 @@ impl<const N: usize, S: Scalar> Cotangent<N, S> {
     /// ```
     #[inline(always)]
     pub fn pair(&self, xi: &Tangent<N, S>) -> S {
-        (0..N).fold(S::zero(), |sum, i| sum + self[i] * xi[i])
+        (0..N).fold(S::zero(), |sum, i| self[i].mul_add(xi[i], sum))
     }
 }

@@ -97,6 +97,7 @@ impl Lagrangian for PlanarBody {
 impl ContinuousSystem for PlanarBody {
     type Group = PlanarConfiguration;
     type Workspace<S: Scalar> = Elimination<S>;
+    const INLINE: bool = true;
 
     fn workspace<S: Scalar>(&self, _: &PlanarConfiguration<S>) -> Elimination<S> {
         Elimination::new(self)

@@ -3,23 +3,23 @@
 mod newton;
 mod predictor;
 mod solve;
+mod stages;
 mod sweep;
 mod tableau;
 mod update;
+mod work;
 
 use core::marker::PhantomData;
 
+use lie::lanes::InstructionSet;
 use lie::{Cayley, LieGroup, Retraction, VectorSpace};
 
 use crate::{
     ContinuousSystem, FirstVariation, Integrator, State, StepError, StepReport, Variation,
 };
-use newton::SweepNewton;
-use predictor::Predictor;
 use solve::Failure;
-use sweep::Sweep;
 use tableau::Tableau;
-use update::Update;
+use work::{Stepper, stepper};
 
 /// A variational integrator of order `2 S` by Gauss collocation with `S` stages, `S` from 1 to 8.
 ///
@@ -67,48 +67,13 @@ pub struct Gauss<C: ContinuousSystem, const S: usize, R = Cayley> {
     system: C,
     tableau: Tableau,
     tolerance: f64,
+    instructions: InstructionSet,
     steps: u64,
-    work: Option<Box<Work<C>>>,
+    work: Option<Box<dyn Stepper<C>>>,
     retraction: PhantomData<R>,
 }
 
-type Dual<C> = <<C as ContinuousSystem>::Group as LieGroup>::Dual;
-
-/// Storage of the steps.
-struct Work<C: ContinuousSystem> {
-    sweep: Sweep<C, f64>,
-    last: solve::Last<C::Group>,
-    predictor: Predictor<C::Group>,
-    update: Update<C::Group>,
-    /// $\pi_0$ of the stages, what their end asks it to be, and its difference from $\mu_k$ in the last step.
-    start: Dual<C>,
-    wanted: Dual<C>,
-    drift: Dual<C>,
-    /// Made when first needed.
-    newton: Option<SweepNewton<C>>,
-    linearised: Option<SweepNewton<C>>,
-    /// Steps to solve by Newton's method before the plain iteration is tried again.
-    long_steps: u32,
-}
-
-impl<C: ContinuousSystem> Work<C> {
-    fn new(system: &C, stages: usize, g: &C::Group) -> Self {
-        Self {
-            sweep: Sweep::new(system, stages, g),
-            last: solve::Last::new(stages, g),
-            predictor: Predictor::new(stages, g),
-            update: Update::new(g),
-            start: g.zero_dual(),
-            wanted: g.zero_dual(),
-            drift: g.zero_dual(),
-            newton: None,
-            linearised: None,
-            long_steps: 0,
-        }
-    }
-}
-
-impl<C: ContinuousSystem, const S: usize> Gauss<C, S> {
+impl<C: ContinuousSystem + 'static, const S: usize> Gauss<C, S> {
     /// The integrator of a system, in the Cayley map's chart; for a Lagrangian, `Gauss::<_, 4>::new(top.hamiltonian())`.
     pub fn new(system: C) -> Self {
         const { assert!(S >= 1 && S <= 8, "Gauss has from 1 to 8 stages") };
@@ -116,6 +81,7 @@ impl<C: ContinuousSystem, const S: usize> Gauss<C, S> {
             system,
             tableau: Tableau::gauss(S),
             tolerance: 0.0,
+            instructions: InstructionSet::widest(S),
             steps: 0,
             work: None,
             retraction: PhantomData,
@@ -123,13 +89,14 @@ impl<C: ContinuousSystem, const S: usize> Gauss<C, S> {
     }
 }
 
-impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
+impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R> {
     /// The same in another retraction's chart: another method of the same order.
     pub fn with_retraction<Q: Retraction>(self) -> Gauss<C, S, Q> {
         Gauss {
             system: self.system,
             tableau: self.tableau,
             tolerance: self.tolerance,
+            instructions: self.instructions,
             steps: self.steps,
             work: None,
             retraction: PhantomData,
@@ -142,6 +109,15 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
     /// is looser than the method's own error of a step.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
+        self
+    }
+
+    /// The same by other instructions than the widest that the processor has; where it lacks them, by the baseline.
+    ///
+    /// The steps differ by rounding alone.
+    pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
+        self.instructions = instructions;
+        self.work = None;
         self
     }
 
@@ -165,17 +141,21 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
     }
 
     /// Solves the stages of a step; the state stays as it is.
-    fn solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, StepError> {
+    fn solve(
+        &mut self,
+        state: &State<C::Group>,
+        h: f64,
+    ) -> Result<(StepReport, &mut dyn Stepper<C>), StepError> {
         self.check(state, h)?;
         let (system, tableau) = (&self.system, &self.tableau);
         let work = match self.work.take() {
-            Some(work) if work.sweep.f.same_shape(&state.g) => work,
-            _ => Box::new(Work::new(system, S, &state.g)),
+            Some(work) if work.fits(&state.g) => work,
+            _ => stepper::<C, R>(self.instructions, system, tableau, &state.g),
         };
         let work = self.work.insert(work);
-        let (step, t, shape) = (self.steps, state.t, &work.start);
-        if !shape.same_shape(&state.mu) {
-            let (expected, found) = (shape.dim(), state.mu.dim());
+        let (step, t) = (self.steps, state.t);
+        if !work.shape().same_shape(&state.mu) {
+            let (expected, found) = (work.shape().dim(), state.mu.dim());
             return Err(StepError::Shape {
                 step,
                 t,
@@ -183,49 +163,33 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Gauss<C, S, R> {
                 found,
             });
         }
-        let solved = work.solve::<R>((system, tableau), (state, h), self.tolerance);
-        solved.map_err(|failure| match failure {
-            Failure::NotFinite => StepError::NotFinite {
-                step: self.steps,
-                t: state.t,
-                h,
-            },
+        let solved = work.solve((system, tableau), (state, h), self.tolerance);
+        let report = solved.map_err(|failure| match failure {
+            Failure::NotFinite => StepError::NotFinite { step, t, h },
             Failure::NotConverged(report, hint) => StepError::NotConverged {
-                step: self.steps,
-                t: state.t,
+                step,
+                t,
                 h,
                 residual: report.residual,
                 iterations: report.iterations,
                 hint,
             },
-        })
+        })?;
+        Ok((report, &mut **work))
     }
 
     /// Takes the step that was solved.
     fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Result<(), StepError> {
         let (step, t) = (self.steps, state.t);
-        let refused = StepError::NotFinite { step, t, h };
-        let Some(work) = &mut self.work else {
-            return Err(refused);
-        };
-        let Work {
-            sweep,
-            update,
-            predictor,
-            start,
-            drift,
-            ..
-        } = &mut **work;
-        drift.set_sum(start, -1.0, &state.mu);
-        let next = update.advance(state, h, (&sweep.f, &sweep.impulse, &sweep.mu));
-        state.copy_from(next.ok_or(refused)?);
-        predictor.record(h, sweep);
+        let work = self.work.as_mut();
+        let accepted = work.and_then(|work| work.accept(state, h));
+        accepted.ok_or(StepError::NotFinite { step, t, h })?;
         self.steps += 1;
         Ok(())
     }
 }
 
-impl<C: ContinuousSystem, const S: usize, R: Retraction> Integrator for Gauss<C, S, R> {
+impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Integrator for Gauss<C, S, R> {
     type Group = C::Group;
 
     fn order(&self) -> u32 {
@@ -242,40 +206,30 @@ impl<C: ContinuousSystem, const S: usize, R: Retraction> Integrator for Gauss<C,
     }
 
     fn step(&mut self, state: &mut State<C::Group>, h: f64) -> Result<StepReport, StepError> {
-        let report = self.solve(state, h)?;
+        let (report, _) = self.solve(state, h)?;
         self.accept(state, h)?;
         Ok(report)
     }
 
     fn peek(&mut self, state: &State<C::Group>, h: f64) -> Result<State<C::Group>, StepError> {
-        self.solve(state, h)?;
-        let mut ahead = state.clone();
-        ahead.t += h;
-        if let Some(work) = &self.work {
-            ahead.g = state.g.compose(&work.sweep.f);
-            ahead.mu.copy_from(&work.sweep.mu);
-        }
-        Ok(ahead)
+        let (_, work) = self.solve(state, h)?;
+        Ok(work.ahead((state, h)))
     }
 }
 
-impl<C: ContinuousSystem, const S: usize, R: Retraction> FirstVariation for Gauss<C, S, R> {
+impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> FirstVariation
+    for Gauss<C, S, R>
+{
     fn step_varied(
         &mut self,
         state: &mut State<C::Group>,
         variations: &mut [Variation<C::Group>],
         h: f64,
     ) -> Result<StepReport, StepError> {
-        let report = self.solve(state, h)?;
+        let (report, _) = self.solve(state, h)?;
         let mut carried = variations.to_vec();
-        let (system, tableau) = (&self.system, &self.tableau);
         if let Some(work) = &mut self.work {
-            let Work {
-                sweep, linearised, ..
-            } = &mut **work;
-            let linearised =
-                linearised.get_or_insert_with(|| SweepNewton::new(system, S, &state.g));
-            linearised.carry::<R>((system, tableau), (state, h), sweep, &mut carried);
+            work.carry((&self.system, &self.tableau), (state, h), &mut carried);
         }
         if !carried.iter().all(Variation::is_finite) {
             let (step, t) = (self.steps, state.t);

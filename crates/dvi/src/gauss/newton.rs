@@ -1,8 +1,8 @@
 //! Newton's method on the sweep, for steps too long for its iteration; and the derivative of a solved step.
 
-use lie::{Jet, LieGroup, Retraction, Scalar, VectorSpace};
+use lie::{Batch, Jet, LieGroup, Retraction, Scalar, VectorSpace};
 
-use super::sweep::Sweep;
+use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
@@ -26,40 +26,16 @@ pub(super) struct SweepNewton<C: ContinuousSystem> {
     varied: Varied<C::Group>,
 }
 
-/// Writes the rates and the momentum of a sweep.
-pub(super) fn write<C: ContinuousSystem, S: Scalar>(sweep: &Sweep<C, S>, out: &mut [S]) {
-    let mut rest = out;
-    for stage in &sweep.stages {
-        stage.c_dot.write(rest);
-        rest = &mut rest[stage.c_dot.dim()..];
-        stage.pi_dot.write(rest);
-        rest = &mut rest[stage.pi_dot.dim()..];
-    }
-    sweep.momentum.write(rest);
-}
-
-/// Reads them back.
-pub(super) fn read<C: ContinuousSystem, S: Scalar>(sweep: &mut Sweep<C, S>, from: &[S]) {
-    let mut rest = from;
-    for stage in &mut sweep.stages {
-        stage.c_dot.read(rest);
-        rest = &rest[stage.c_dot.dim()..];
-        stage.pi_dot.read(rest);
-        rest = &rest[stage.pi_dot.dim()..];
-    }
-    sweep.momentum.read(rest);
-}
-
 impl<C: ContinuousSystem> SweepNewton<C> {
-    pub(super) fn new(system: &C, stages: usize, g: &C::Group) -> Self {
-        let dim = g.zero_dual().dim() * (2 * stages + 1);
+    pub(super) fn new(system: &C, tableau: &Tableau, g: &C::Group) -> Self {
+        let dim = g.zero_dual().dim() * (2 * tableau.nodes.len() + 1);
         let varied = Varied::new(g);
         Self {
             matrix: Factorisation::new(dim),
             h: 0.0,
             x: vec![0.0; dim],
             correction: vec![0.0; dim],
-            sweep: Sweep::new(system, stages, &varied.g),
+            sweep: Sweep::new(system, tableau, &varied.g),
             unknowns: vec![J::constant(0.0); dim],
             varied,
         }
@@ -75,8 +51,8 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     }
 
     /// The Newton correction at the iterate, whose image the sweep has found.
-    pub(super) fn linearise(&mut self, image: &Sweep<C, f64>) {
-        write(image, &mut self.correction);
+    pub(super) fn linearise<S: Batch<Item = f64>>(&mut self, image: &Sweep<C, S>) {
+        image.write(&mut self.correction);
         for (entry, x) in self.correction.iter_mut().zip(&self.x) {
             *entry = x - *entry;
         }
@@ -91,14 +67,9 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     }
 
     /// Factorises $1 - \Phi'$ at the iterate.
-    pub(super) fn renew<R: Retraction>(
-        &mut self,
-        (system, tableau): (&C, &Tableau),
-        state: &State<C::Group>,
-        h: f64,
-    ) {
+    pub(super) fn renew<R: Retraction>(&mut self, system: &C, state: &State<C::Group>, h: f64) {
         self.set_state(state);
-        self.sweep.extra_force.set_zero();
+        self.sweep.extra_force = None;
         let dim = self.x.len();
         for_each_chunk(dim, |first| {
             for (i, (unknown, x)) in self.unknowns.iter_mut().zip(&self.x).enumerate() {
@@ -107,7 +78,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
                     _ => J::constant(*x),
                 };
             }
-            self.map::<R>((system, tableau), state.t, h);
+            self.map::<R>(system, state.t, h);
             let last = dim.min(first + lie::JET_DIRECTIONS);
             for column in first..last {
                 for (row, image) in self.unknowns.iter().enumerate() {
@@ -135,14 +106,14 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     }
 
     /// $\Phi$ on the unknowns.
-    fn map<R: Retraction>(&mut self, (system, tableau): (&C, &Tableau), t: f64, h: f64) {
+    fn map<R: Retraction>(&mut self, system: &C, t: f64, h: f64) {
         let (t, h) = (J::constant(t), J::constant(h));
-        read(&mut self.sweep, &self.unknowns);
-        self.sweep.place::<R>(tableau, h);
-        self.sweep
-            .evaluate::<R>(system, tableau, (t, h), &self.varied.g);
-        self.sweep.gather(tableau, &self.varied.mu, h);
-        write(&self.sweep, &mut self.unknowns);
+        self.sweep.start_at(&self.varied.g);
+        self.sweep.read(&self.unknowns);
+        self.sweep.place::<R>(h);
+        self.sweep.evaluate::<R>(system, (t, h));
+        self.sweep.gather(&self.varied.mu, h);
+        self.sweep.write(&mut self.unknowns);
     }
 
     /// Solves $(1 - \Phi') \delta = $ `correction`, in place.
@@ -154,20 +125,20 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     }
 
     /// Carries variations of `state` over a solved step, by the implicit-function rule.
-    pub(super) fn carry<R: Retraction>(
+    pub(super) fn carry<R: Retraction, S: Batch<Item = f64>>(
         &mut self,
-        (system, tableau): (&C, &Tableau),
+        system: &C,
         (state, h): (&State<C::Group>, f64),
-        solved: &Sweep<C, f64>,
+        solved: &Sweep<C, S>,
         variations: &mut [Variation<C::Group>],
     ) {
-        write(solved, &mut self.x);
-        self.renew::<R>((system, tableau), state, h);
+        solved.write(&mut self.x);
+        self.renew::<R>(system, state, h);
         for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
             self.varied.enter(state, chunk);
-            self.sweep.extra_force.copy_from(&self.varied.force);
+            self.sweep.extra_force = Some(self.varied.force.clone());
             self.start_from_iterate();
-            self.map::<R>((system, tableau), state.t, h);
+            self.map::<R>(system, state.t, h);
             let images = self.unknowns.clone();
             self.start_from_iterate();
             for direction in 0..chunk.len() {
@@ -179,9 +150,9 @@ impl<C: ContinuousSystem> SweepNewton<C> {
                     *unknown += J::variable(0.0, direction).times(*slope);
                 }
             }
-            read(&mut self.sweep, &self.unknowns);
-            self.sweep.end::<R>(tableau, J::constant(h));
-            let Sweep { f, mu, .. } = &self.sweep;
+            self.sweep.read(&self.unknowns);
+            self.sweep.end::<R>(J::constant(h));
+            let End { f, mu, .. } = &self.sweep.end;
             self.varied.leave(f, mu, chunk);
         }
     }

@@ -1,11 +1,10 @@
 //! How the stages of a step are solved: by sweeps, and by Newton's method where they do not contract.
 
-use lie::{RealGroup, Retraction, VectorSpace};
+use lie::{Batch, Retraction, VectorSpace};
 
-use super::Work;
-use super::newton::{SweepNewton, read, write};
-use super::sweep::Stage;
+use super::newton::SweepNewton;
 use super::tableau::Tableau;
+use super::work::Work;
 use crate::numbers::{larger, relative};
 use crate::{ContinuousSystem, Hint, State, StepReport};
 
@@ -36,21 +35,6 @@ pub(super) enum Failure {
     NotConverged(StepReport, Hint),
 }
 
-/// The rates of the last sweep, to see how much the next one changes.
-pub(super) struct Last<G: RealGroup> {
-    c_dot: Vec<G::Algebra>,
-    pi_dot: Vec<G::Dual>,
-}
-
-impl<G: RealGroup> Last<G> {
-    pub(super) fn new(stages: usize, g: &G) -> Self {
-        Self {
-            c_dot: vec![g.zero_algebra(); stages],
-            pi_dot: vec![g.zero_dual(); stages],
-        }
-    }
-}
-
 /// How an iteration ended.
 enum Ended {
     Solved(StepReport),
@@ -67,10 +51,10 @@ impl Ended {
     }
 }
 
-type Method<'a, C> = (&'a C, &'a Tableau);
-type Start<'a, C> = (&'a State<<C as ContinuousSystem>::Group>, f64);
+pub(super) type Method<'a, C> = (&'a C, &'a Tableau);
+pub(super) type Start<'a, C> = (&'a State<<C as ContinuousSystem>::Group>, f64);
 
-impl<C: ContinuousSystem> Work<C> {
+impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     pub(super) fn solve<R: Retraction>(
         &mut self,
         method: Method<C>,
@@ -122,18 +106,15 @@ impl<C: ContinuousSystem> Work<C> {
         (system, tableau): Method<C>,
         (state, h): Start<C>,
     ) -> Result<(), Failure> {
+        self.sweep.start_at(&state.g);
         let known = self
             .predictor
             .guess::<C, R>((system, tableau), (state, h), &mut self.sweep);
-        let rates = |stage: &Stage<C::Group, f64>| {
-            stage.xi.max_magnitude().is_finite() && stage.tau.max_magnitude().is_finite()
-        };
-        if !known && !self.sweep.stages.iter().all(rates) {
+        if !known && !self.sweep.is_finite() {
             return Err(Failure::NotFinite);
         }
-        let sweep = &mut self.sweep;
-        sweep.evaluate::<R>(system, tableau, (state.t, h), &state.g);
-        sweep.gather(tableau, &state.mu, h);
+        self.sweep.evaluate::<R>(system, (state.t, h));
+        self.sweep.gather(&state.mu, h);
         Ok(())
     }
 
@@ -144,11 +125,13 @@ impl<C: ContinuousSystem> Work<C> {
     /// small eigenvalues of $a_{ij}$. So it is kept until it is known better than it changes.
     fn iterate<R: Retraction>(
         &mut self,
-        (system, tableau): Method<C>,
+        method: Method<C>,
         (state, h): Start<C>,
         tolerance: f64,
     ) -> Result<Ended, Failure> {
-        self.guess::<R>((system, tableau), (state, h))?;
+        self.guess::<R>(method, (state, h))?;
+        let system = method.0;
+        self.sweep.round_from_start();
         self.start.set_sum(&state.mu, 1.0, &self.drift);
         let enough = tolerance.max(8.0 * f64::EPSILON);
         let mut changes = Changes::default();
@@ -161,16 +144,16 @@ impl<C: ContinuousSystem> Work<C> {
                 wanted,
                 ..
             } = &mut *self;
-            sweep.place_from(tableau, h, start);
-            sweep.evaluate::<R>(system, tableau, (state.t, h), &state.g);
-            sweep.gather(tableau, &state.mu, h);
-            sweep.end_to_start::<R>(tableau, h, wanted);
+            sweep.place_from(h, start);
+            sweep.evaluate::<R>(system, (state.t, h));
+            sweep.gather(&state.mu, h);
+            sweep.end_to_start::<R>(h, wanted);
             start.add_scaled(-1.0, wanted);
             // A body at rest has a momentum only in between.
-            let size = larger(state.mu.max_magnitude(), sweep.momentum.max_magnitude());
+            let size = larger(state.mu.max_magnitude(), sweep.end.momentum.max_magnitude());
             let apart = relative(start.max_magnitude(), size);
             start.add_scaled(1.0, wanted);
-            changes.push(self.change(h));
+            changes.push(self.sweep.change(&self.last, h));
             report = StepReport {
                 iterations,
                 residual: larger(changes.now, apart),
@@ -192,26 +175,8 @@ impl<C: ContinuousSystem> Work<C> {
     }
 
     fn remember(&mut self) {
-        for (i, stage) in self.sweep.stages.iter().enumerate() {
-            self.last.c_dot[i].copy_from(&stage.c_dot);
-            self.last.pi_dot[i].copy_from(&stage.pi_dot);
-        }
-    }
-
-    /// The largest change of the rates in the last sweep: of $\dot c$ relative to it, of $h \dot\pi$ to the momentum.
-    fn change(&mut self, h: f64) -> f64 {
-        let (mut c, mut c_size, mut pi, mut pi_size) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
-        for (i, stage) in self.sweep.stages.iter().enumerate() {
-            let (c_last, pi_last) = (&mut self.last.c_dot[i], &mut self.last.pi_dot[i]);
-            c_last.add_scaled(-1.0, &stage.c_dot);
-            pi_last.add_scaled(-1.0, &stage.pi_dot);
-            c = larger(c, c_last.max_magnitude());
-            pi = larger(pi, pi_last.max_magnitude());
-            c_size = larger(c_size, stage.c_dot.max_magnitude());
-            pi_size = larger(pi_size, stage.pi.max_magnitude());
-        }
-        let (c, pi) = (relative(c, c_size), relative(pi * h.abs(), pi_size));
-        larger(c, pi)
+        self.last.0.copy_from(&self.sweep.c_dot);
+        self.last.1.copy_from(&self.sweep.pi_dot);
     }
 
     /// Newton's method on the sweep, with halved corrections where they overshoot.
@@ -225,8 +190,8 @@ impl<C: ContinuousSystem> Work<C> {
         let mut newton = self
             .newton
             .take()
-            .unwrap_or_else(|| SweepNewton::new(method.0, method.1.nodes.len(), &state.g));
-        let ended = self.newton_with::<R>(&mut newton, method, (state, h), tolerance);
+            .unwrap_or_else(|| SweepNewton::new(method.0, method.1, &state.g));
+        let ended = self.newton_with::<R>(&mut newton, method.0, (state, h), tolerance);
         self.newton = Some(newton);
         Ok(ended)
     }
@@ -234,29 +199,29 @@ impl<C: ContinuousSystem> Work<C> {
     fn newton_with<R: Retraction>(
         &mut self,
         newton: &mut SweepNewton<C>,
-        (system, tableau): Method<C>,
+        system: &C,
         (state, h): Start<C>,
         tolerance: f64,
     ) -> Ended {
-        write(&self.sweep, &mut newton.x);
+        self.sweep.round_from_end();
+        self.sweep.write(&mut newton.x);
         let (mut last, mut damping) = (f64::INFINITY, 1.0);
         let mut stale = !newton.fits(h);
         let (mut report, mut best) = (StepReport::default(), f64::INFINITY);
         for iterations in 1..=MAX_NEWTON {
-            read(&mut self.sweep, &newton.x);
+            self.sweep.read(&newton.x);
             self.remember();
-            self.sweep.place::<R>(tableau, h);
-            self.sweep
-                .evaluate::<R>(system, tableau, (state.t, h), &state.g);
-            self.sweep.gather(tableau, &state.mu, h);
-            let change = self.change(h);
+            self.sweep.place::<R>(h);
+            self.sweep.evaluate::<R>(system, (state.t, h));
+            self.sweep.gather(&state.mu, h);
+            let change = self.sweep.change(&self.last, h);
             best = best.min(change);
             report = StepReport {
                 iterations,
                 residual: best,
             };
             if is_solved(change, last, tolerance) {
-                self.sweep.end_to_start::<R>(tableau, h, &mut self.start);
+                self.sweep.end_to_start::<R>(h, &mut self.start);
                 return Ended::Solved(report);
             }
             if damping > SHORTEST && (change.is_nan() || change > 2.0 * last) {
@@ -269,7 +234,7 @@ impl<C: ContinuousSystem> Work<C> {
                 return Ended::Slow(report);
             }
             if stale || damping < 1.0 || change > KEEPS_MATRIX * last {
-                newton.renew::<R>((system, tableau), state, h);
+                newton.renew::<R>(system, state, h);
             }
             (last, damping, stale) = (change, 1.0, false);
             newton.linearise(&self.sweep);

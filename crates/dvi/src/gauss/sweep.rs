@@ -1,35 +1,37 @@
 //! One sweep over the stages of a step: where they are, what the system says there, what that adds up to.
 
-use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
+use lie::{AlgebraOver, Batch, DualOver, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
+use num_traits::{One, Zero};
 
-use super::tableau::{Split, Tableau};
+use super::stages::{Coefficients, Matrix, Stages};
+use super::tableau::Tableau;
 use crate::ContinuousSystem;
 
-/// One stage: the chart's coordinates $(c_i, \pi_i)$, the state $(g_i, \mu_i)$ they stand for, and the rates there.
-pub(super) struct Stage<G: RealGroup, S: Scalar> {
+/// As many stages as `S` has items: the chart's coordinates $(c_i, \pi_i)$, the state $(g_i, \mu_i)$ they stand for, and the rates there.
+struct Block<G: RealGroup, S: Scalar> {
     /// $c_i$ with $g_i = g_k \tau(c_i)$.
-    pub(super) c: AlgebraOver<G, S>,
+    c: AlgebraOver<G, S>,
     /// $\pi_i$, the momentum conjugate to $c_i$.
-    pub(super) pi: DualOver<G, S>,
+    pi: DualOver<G, S>,
     /// $f_i = \tau(c_i)$.
-    pub(super) f: Over<G, S>,
+    f: Over<G, S>,
     /// $g_i = g_k f_i$.
-    pub(super) g: Over<G, S>,
+    g: Over<G, S>,
     /// $\mu_i = (\mathrm d\tau_{c_i}^{-1})^\ast \pi_i$.
-    pub(super) mu: DualOver<G, S>,
+    mu: DualOver<G, S>,
     /// The velocity $\xi_i$.
-    pub(super) xi: AlgebraOver<G, S>,
+    xi: AlgebraOver<G, S>,
     /// The force $\tau_i$.
-    pub(super) tau: DualOver<G, S>,
+    tau: DualOver<G, S>,
     /// $\dot c_i = \mathrm d\tau_{c_i}^{-1} \xi_i$.
-    pub(super) c_dot: AlgebraOver<G, S>,
+    c_dot: AlgebraOver<G, S>,
     /// $\dot\pi_i = (\mathrm d\tau_{c_i})^\ast \tau_i - \partial_c \langle \pi_i, \mathrm d\tau_c^{-1} \xi_i \rangle$.
-    pub(super) pi_dot: DualOver<G, S>,
+    pi_dot: DualOver<G, S>,
     /// $\mathrm{Ad}^\ast_{f_i^{-1}} \tau_i$: the force in the frame of the step's start.
-    pub(super) force: DualOver<G, S>,
+    force: DualOver<G, S>,
 }
 
-impl<G: RealGroup, S: Scalar> Stage<G, S> {
+impl<G: RealGroup, S: Scalar> Block<G, S> {
     fn new(g: &Over<G, S>) -> Self {
         Self {
             c: g.zero_algebra(),
@@ -47,7 +49,7 @@ impl<G: RealGroup, S: Scalar> Stage<G, S> {
 
     /// $\dot c$, $\dot\pi$ and the force from the velocity and the force of the system.
     #[inline(always)]
-    pub(super) fn rates<R: Retraction>(&mut self) {
+    fn rates<R: Retraction>(&mut self) {
         let rates = (&mut self.c_dot, &mut self.pi_dot, &mut self.force);
         Over::<G, S>::chart_rates_into::<R>(
             (&self.c, &self.pi, &self.f),
@@ -57,186 +59,351 @@ impl<G: RealGroup, S: Scalar> Stage<G, S> {
     }
 }
 
-/// The stages of a step and its end.
-pub(super) struct Sweep<C: ContinuousSystem, S: Scalar> {
-    pub(super) stages: Vec<Stage<C::Group, S>>,
+/// The end of a step, of which there is one.
+pub(super) struct End<G: RealGroup, S: Scalar> {
     /// $c_1 = h \sum_j b_j \dot c_j$, the displacement of the whole step in the chart.
-    pub(super) c: AlgebraOver<C::Group, S>,
+    c: AlgebraOver<G, S>,
     /// $f_k = \tau(c_1)$.
-    pub(super) f: Over<C::Group, S>,
+    pub(super) f: Over<G, S>,
     /// $P - \mu_k = h \sum_i b_i \mathrm{Ad}^\ast_{f_i^{-1}} \tau_i$: the impulse of the step, in the frame of its start.
-    pub(super) impulse: DualOver<C::Group, S>,
+    pub(super) impulse: DualOver<G, S>,
     /// $P$.
-    pub(super) momentum: DualOver<C::Group, S>,
+    pub(super) momentum: DualOver<G, S>,
     /// $\mu_{k+1} = \mathrm{Ad}^\ast_{f_k} P$.
-    pub(super) mu: DualOver<C::Group, S>,
+    pub(super) mu: DualOver<G, S>,
     /// $\pi_1 = (\mathrm d\tau_{c_1})^\ast \mu_{k+1}$.
-    pi: DualOver<C::Group, S>,
-    /// A change of the force, at every stage; zero but for variations.
-    pub(super) extra_force: DualOver<C::Group, S>,
-    next_c: AlgebraOver<C::Group, S>,
-    next_pi: DualOver<C::Group, S>,
-    workspace: C::Workspace<S>,
+    pi: DualOver<G, S>,
 }
 
-impl<C: ContinuousSystem, S: Scalar> Sweep<C, S> {
-    pub(super) fn new(system: &C, stages: usize, g: &Over<C::Group, S>) -> Self {
+impl<G: RealGroup, S: Scalar> End<G, S> {
+    fn new(g: &Over<G, S>) -> Self {
         Self {
-            stages: (0..stages).map(|_| Stage::new(g)).collect(),
             c: g.zero_algebra(),
             f: g.clone(),
             impulse: g.zero_dual(),
             momentum: g.zero_dual(),
             mu: g.zero_dual(),
             pi: g.zero_dual(),
-            extra_force: g.zero_dual(),
-            next_c: g.zero_algebra(),
-            next_pi: g.zero_dual(),
-            workspace: system.workspace::<S>(g),
         }
+    }
+}
+
+/// The stages of a step and its end.
+///
+/// The stages of a sweep do not need one another: they are evaluated side by side, as many as `S` has items.
+pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
+    stages: usize,
+    coefficients: Coefficients<S>,
+    c: Stages<S>,
+    pi: Stages<S>,
+    pub(super) xi: Stages<S>,
+    pub(super) tau: Stages<S>,
+    pub(super) c_dot: Stages<S>,
+    pub(super) pi_dot: Stages<S>,
+    force: Stages<S>,
+    /// What the coefficients' rounding leaves out of $\sum_j a_{ij} \dot c_j$ and of the sum of momenta.
+    low_c: Stages<S>,
+    low_pi: Stages<S>,
+    zero: Stages<S>,
+    pub(super) end: End<C::Group, S::Item>,
+    /// A change of the force, at every stage; only for variations.
+    pub(super) extra_force: Option<DualOver<C::Group, S>>,
+    block: Block<C::Group, S>,
+    /// $g_k$.
+    g: Over<C::Group, S>,
+    workspace: C::Workspace<S>,
+}
+
+impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
+    pub(super) fn new(system: &C, tableau: &Tableau, g: &Over<C::Group, S::Item>) -> Self {
+        let (stages, dim) = (tableau.nodes.len(), g.zero_dual().dim());
+        let zero = Stages::new(stages, dim);
+        let lifted = C::Group::convert::<S::Item, S>(g, S::splat);
+        Self {
+            stages,
+            coefficients: Coefficients::new(tableau),
+            c: zero.clone(),
+            pi: zero.clone(),
+            xi: zero.clone(),
+            tau: zero.clone(),
+            c_dot: zero.clone(),
+            pi_dot: zero.clone(),
+            force: zero.clone(),
+            low_c: zero.clone(),
+            low_pi: zero.clone(),
+            zero,
+            end: End::new(g),
+            extra_force: None,
+            block: Block::new(&lifted),
+            workspace: system.workspace::<S>(&lifted),
+            g: lifted,
+        }
+    }
+
+    pub(super) fn stages(&self) -> usize {
+        self.stages
+    }
+
+    pub(super) fn dim(&self) -> usize {
+        self.end.pi.dim()
+    }
+
+    /// Sets the configuration that the step starts from.
+    pub(super) fn start_at(&mut self, g: &Over<C::Group, S::Item>) {
+        C::Group::convert_into::<S::Item, S>(g, S::splat, &mut self.g);
+    }
+
+    /// Finds what the coefficients' rounding leaves out, from rates that are nearly right, for momenta summed from the start.
+    pub(super) fn round_from_start(&mut self) {
+        let Coefficients { forward, .. } = &self.coefficients;
+        forward.low.apply(&mut self.low_c, &self.c_dot);
+        forward.low.apply(&mut self.low_pi, &self.pi_dot);
+    }
+
+    /// The same, for momenta summed from the end.
+    pub(super) fn round_from_end(&mut self) {
+        let Coefficients { forward, backward, .. } = &self.coefficients;
+        forward.low.apply(&mut self.low_c, &self.c_dot);
+        backward.low.apply(&mut self.low_pi, &self.pi_dot);
     }
 
     /// The stages' places from the rates and a given $\pi_0$: $c_i = h \sum_j a_{ij} \dot c_j$ and $\pi_i = \pi_0 + h \sum_j a_{ij} \dot\pi_j$.
-    #[inline(always)]
-    pub(super) fn place_from(&mut self, tableau: &Tableau, h: S, start: &DualOver<C::Group, S>) {
-        for i in 0..self.stages.len() {
-            self.place_coordinates(tableau, i, h);
-            let (stages, row) = (&self.stages, &tableau.forward[i]);
-            combine(&mut self.next_pi, h, row, |j| &stages[j].pi_dot);
-            self.next_pi.add_scaled(S::one(), start);
-            core::mem::swap(&mut self.stages[i].pi, &mut self.next_pi);
-        }
+    pub(super) fn place_from(&mut self, h: S::Item, start: &DualOver<C::Group, S::Item>) {
+        S::run(
+            #[inline(always)]
+            || {
+                self.place_coordinates(h);
+                let forward = &self.coefficients.forward.high;
+                let (pi, low) = (&mut self.pi, &self.low_pi);
+                forward.combine(pi, (h, low), &self.pi_dot, |d| start.get(d));
+            },
+        );
     }
 
     /// The $\pi_0$ that the step's end asks for, $\pi_1 - h \sum_j b_j \dot\pi_j$, into `start`; and the step's end.
-    #[inline(always)]
     pub(super) fn end_to_start<R: Retraction>(
         &mut self,
-        tableau: &Tableau,
-        h: S,
-        start: &mut DualOver<C::Group, S>,
+        h: S::Item,
+        start: &mut DualOver<C::Group, S::Item>,
     ) {
-        self.end::<R>(tableau, h);
-        let stages = &self.stages;
-        combine(start, -h, &tableau.weights, |j| &stages[j].pi_dot);
-        start.add_scaled(S::one(), &self.pi);
+        self.end::<R>(h);
+        let weights = &self.coefficients.weights;
+        for d in 0..start.dim() {
+            let sum = weights.sum(&self.pi_dot, d);
+            start.set(d, h.neg_mul_add(sum, self.end.pi.get(d)));
+        }
     }
 
     /// The step's end and the stages' places from the rates and from $P$:
     /// $c_i = h \sum_j a_{ij} \dot c_j$ and $\pi_i = \pi_1 - h \sum_j (b_j - a_{ij}) \dot\pi_j$.
-    #[inline(always)]
-    pub(super) fn place<R: Retraction>(&mut self, tableau: &Tableau, h: S) {
-        self.end::<R>(tableau, h);
-        for i in 0..self.stages.len() {
-            self.place_coordinates(tableau, i, h);
-            let (stages, row) = (&self.stages, &tableau.backward[i]);
-            combine(&mut self.next_pi, -h, row, |j| &stages[j].pi_dot);
-            self.next_pi.add_scaled(S::one(), &self.pi);
-            core::mem::swap(&mut self.stages[i].pi, &mut self.next_pi);
-        }
+    pub(super) fn place<R: Retraction>(&mut self, h: S::Item) {
+        self.end::<R>(h);
+        S::run(
+            #[inline(always)]
+            || {
+                self.place_coordinates(h);
+                let backward = &self.coefficients.backward.high;
+                let (pi, low, end) = (&mut self.pi, &self.low_pi, &self.end.pi);
+                backward.combine(pi, (-h, low), &self.pi_dot, |d| end.get(d));
+            },
+        );
     }
 
     /// $c_i = h \sum_j a_{ij} \dot c_j$.
     #[inline(always)]
-    pub(super) fn place_coordinates(&mut self, tableau: &Tableau, i: usize, h: S) {
-        let (stages, row) = (&self.stages, &tableau.forward[i]);
-        combine(&mut self.next_c, h, row, |j| &stages[j].c_dot);
-        core::mem::swap(&mut self.stages[i].c, &mut self.next_c);
+    fn place_coordinates(&mut self, h: S::Item) {
+        let forward = &self.coefficients.forward.high;
+        let (c, low) = (&mut self.c, &self.low_c);
+        forward.combine(c, (h, low), &self.c_dot, |_| S::Item::zero());
     }
 
     /// The step's end from the rates and from $P$.
-    #[inline(always)]
-    pub(super) fn end<R: Retraction>(&mut self, tableau: &Tableau, h: S) {
-        let stages = &self.stages;
-        combine(&mut self.c, h, &tableau.weights, |j| &stages[j].c_dot);
-        Over::<C::Group, S>::chart_leave_into::<R>(
-            &self.c,
-            &self.momentum,
-            (&mut self.f, &mut self.mu, &mut self.pi),
+    pub(super) fn end<R: Retraction>(&mut self, h: S::Item) {
+        let (weights, end) = (&self.coefficients.weights, &mut self.end);
+        for d in 0..end.c.dim() {
+            end.c.set(d, h * weights.sum(&self.c_dot, d));
+        }
+        Over::<C::Group, S::Item>::chart_leave_into::<R>(
+            &end.c,
+            &end.momentum,
+            (&mut end.f, &mut end.mu, &mut end.pi),
         );
     }
 
-    /// The rates at the stages' places; all stages in one call, and none needs another.
+    /// The rates at the stages' places; no stage needs another.
+    pub(super) fn evaluate<R: Retraction>(&mut self, system: &C, time: (S::Item, S::Item)) {
+        S::run(
+            #[inline(always)]
+            || {
+                for k in 0..self.c.blocks() {
+                    self.evaluate_block::<R>(system, time, k);
+                }
+            },
+        );
+    }
+
     #[inline(always)]
-    pub(super) fn evaluate<R: Retraction>(
-        &mut self,
-        system: &C,
-        tableau: &Tableau,
-        (t, h): (S, S),
-        g: &Over<C::Group, S>,
-    ) {
-        for (stage, node) in self.stages.iter_mut().zip(&tableau.nodes) {
-            Over::<C::Group, S>::chart_enter_into::<R>(
-                &stage.c,
-                &stage.pi,
-                (&mut stage.f, &mut stage.mu),
-            );
-            g.compose_into(&stage.f, &mut stage.g);
-            let (xi, tau) = (&mut stage.xi, &mut stage.tau);
-            let t = t + h * S::from_f64(*node);
-            system.velocity_and_force(t, &stage.g, &stage.mu, &mut self.workspace, xi, tau);
-            stage.tau.add_scaled(S::one(), &self.extra_force);
-            stage.rates::<R>();
+    fn evaluate_block<R: Retraction>(&mut self, system: &C, (t, h): (S::Item, S::Item), k: usize) {
+        let block = &mut self.block;
+        block.c.read(self.c.block(k));
+        block.pi.read(self.pi.block(k));
+        Over::<C::Group, S>::chart_enter_into::<R>(
+            &block.c,
+            &block.pi,
+            (&mut block.f, &mut block.mu),
+        );
+        self.g.compose_into(&block.f, &mut block.g);
+        let (xi, tau) = (&mut block.xi, &mut block.tau);
+        let t = S::splat(h).mul_add(self.coefficients.nodes[k], S::splat(t));
+        system.velocity_and_force(t, &block.g, &block.mu, &mut self.workspace, xi, tau);
+        if let Some(force) = &self.extra_force {
+            block.tau.add_scaled(S::one(), force);
         }
+        block.rates::<R>();
+        block.xi.write(self.xi.block_mut(k));
+        block.tau.write(self.tau.block_mut(k));
+        block.c_dot.write(self.c_dot.block_mut(k));
+        block.pi_dot.write(self.pi_dot.block_mut(k));
+        block.force.write(self.force.block_mut(k));
     }
 
     /// $P$ from the forces.
-    #[inline(always)]
-    pub(super) fn gather(&mut self, tableau: &Tableau, mu: &DualOver<C::Group, S>, h: S) {
-        let stages = &self.stages;
-        combine(&mut self.impulse, h, &tableau.weights, |j| &stages[j].force);
-        self.momentum.set_sum(mu, S::one(), &self.impulse);
+    pub(super) fn gather(&mut self, mu: &DualOver<C::Group, S::Item>, h: S::Item) {
+        let (weights, end) = (&self.coefficients.weights, &mut self.end);
+        for d in 0..end.impulse.dim() {
+            end.impulse.set(d, h * weights.sum(&self.force, d));
+        }
+        end.momentum.set_sum(mu, S::Item::one(), &end.impulse);
     }
 
-    /// The rates at one state, for a step that has no step before it.
-    pub(super) fn rates_at(
-        &mut self,
-        system: &C,
-        t: S,
-        g: &Over<C::Group, S>,
-        mu: &DualOver<C::Group, S>,
-    ) {
-        let [first, rest @ ..] = &mut self.stages[..] else {
-            return;
-        };
-        let (xi, tau) = (&mut first.xi, &mut first.tau);
-        system.velocity_and_force(t, g, mu, &mut self.workspace, xi, tau);
-        for stage in rest {
-            stage.xi.copy_from(&first.xi);
-            stage.tau.copy_from(&first.tau);
+    /// Velocities and forces at one state, for a step that has no step before it.
+    pub(super) fn rates_at(&mut self, system: &C, t: S::Item, mu: &DualOver<C::Group, S::Item>) {
+        let Block { mu: at, xi, tau, .. } = &mut self.block;
+        for d in 0..at.dim() {
+            at.set(d, S::splat(mu.get(d)));
+        }
+        system.velocity_and_force(S::splat(t), &self.g, at, &mut self.workspace, xi, tau);
+        for k in 0..self.xi.blocks() {
+            xi.write(self.xi.block_mut(k));
+            tau.write(self.tau.block_mut(k));
         }
     }
+
+    /// The stages' places from velocities and forces alone: $\dot c = \mathrm d\tau_c^{-1} \xi$ twice over, and the momenta by transport.
+    pub(super) fn place_by_velocities<R: Retraction>(
+        &mut self,
+        h: S::Item,
+        mu: &DualOver<C::Group, S::Item>,
+    ) {
+        S::run(
+            #[inline(always)]
+            || {
+                self.low_c.copy_from(&self.zero);
+                self.c_dot.copy_from(&self.xi);
+                for _ in 0..2 {
+                    self.place_coordinates(h);
+                    for k in 0..self.c.blocks() {
+                        self.turn_velocities::<R>(k);
+                    }
+                }
+                let forward: &Matrix<S> = &self.coefficients.forward.high;
+                forward.combine(&mut self.pi, (h, &self.zero), &self.force, |d| mu.get(d));
+                for k in 0..self.c.blocks() {
+                    self.transport_momentum::<R>(k);
+                }
+            },
+        );
+    }
+
+    /// $\dot c_i$ and the force in the frame of the start, from $\xi_i$ and $\tau_i$ at the places $c_i$.
+    #[inline(always)]
+    fn turn_velocities<R: Retraction>(&mut self, k: usize) {
+        let block = &mut self.block;
+        block.c.read(self.c.block(k));
+        block.pi.set_zero();
+        block.xi.read(self.xi.block(k));
+        block.tau.read(self.tau.block(k));
+        R::retract_into::<Over<C::Group, S>>(&block.c, &mut block.f);
+        block.rates::<R>();
+        block.c_dot.write(self.c_dot.block_mut(k));
+        block.force.write(self.force.block_mut(k));
+    }
+
+    /// $\pi_i$ from the momentum in the frame of the start.
+    #[inline(always)]
+    fn transport_momentum<R: Retraction>(&mut self, k: usize) {
+        let block = &mut self.block;
+        block.c.read(self.c.block(k));
+        block.mu.read(self.pi.block(k));
+        let (momentum, out) = (&block.mu, (&mut block.f, &mut block.force, &mut block.pi));
+        Over::<C::Group, S>::chart_leave_into::<R>(&block.c, momentum, out);
+        block.pi.write(self.pi.block_mut(k));
+    }
+
+    /// Writes the rates, stage by stage, and the momentum.
+    pub(super) fn write(&self, out: &mut [S::Item]) {
+        let dim = self.dim();
+        let (rates, momentum) = out.split_at_mut(2 * dim * self.stages);
+        for (i, rates) in rates.chunks_exact_mut(2 * dim).enumerate() {
+            for d in 0..dim {
+                rates[d] = self.c_dot.get(i, d);
+                rates[dim + d] = self.pi_dot.get(i, d);
+            }
+        }
+        self.end.momentum.write(momentum);
+    }
+
+    /// Reads them back.
+    pub(super) fn read(&mut self, from: &[S::Item]) {
+        let (dim, stages) = (self.dim(), self.stages);
+        let (rates, momentum) = from.split_at(2 * dim * stages);
+        for (i, rates) in rates.chunks_exact(2 * dim).enumerate() {
+            for d in 0..dim {
+                self.c_dot.set(stages, i, d, rates[d]);
+                self.pi_dot.set(stages, i, d, rates[dim + d]);
+            }
+        }
+        self.end.momentum.read(momentum);
+    }
 }
 
-/// $h \sum_j w_j v_j$; the factor $h$ last, since a rounded $h w_j$ would be another method.
-#[inline(always)]
-pub(super) fn combine<'a, V: VectorSpace + 'a>(
-    out: &mut V,
-    h: V::Scalar,
-    weights: &[Split],
-    values: impl Fn(usize) -> &'a V,
-) {
-    out.set_zero();
-    for (j, weight) in weights.iter().enumerate() {
-        out.add_scaled(V::Scalar::from_f64(weight.low), values(j));
+impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
+    /// Whether velocities and forces are finite.
+    pub(super) fn is_finite(&self) -> bool {
+        let finite = |stages: &Stages<S>| S::items(stages.values()).iter().all(|x| x.is_finite());
+        finite(&self.xi) && finite(&self.tau)
     }
-    for (j, weight) in weights.iter().enumerate() {
-        out.add_scaled(V::Scalar::from_f64(weight.high), values(j));
+
+    /// The largest change of the rates since `last`: of $\dot c$ relative to it, of $h \dot\pi$ to the momentum.
+    pub(super) fn change(&self, last: &(Stages<S>, Stages<S>), h: f64) -> f64 {
+        S::run(
+            #[inline(always)]
+            || {
+                let c = largest_change(&self.c_dot, &last.0, &self.c_dot);
+                let pi = largest_change(&self.pi_dot, &last.1, &self.pi);
+                let change = [c[0] / c[1], pi[0] * h.abs() / pi[1]];
+                // A system at rest has no scale, and no change either.
+                let some = |k: usize, x: f64| if x == 0.0 { 0.0 } else { change[k] };
+                crate::numbers::larger(some(0, c[0]), some(1, pi[0]))
+            },
+        )
     }
-    out.scale(h);
 }
 
-/// The same with plain weights, for guesses.
+/// The largest magnitudes of `new - old` and of `size`; not numbers where one is not finite.
 #[inline(always)]
-pub(super) fn combine_plain<'a, V: VectorSpace + 'a>(
-    out: &mut V,
-    h: V::Scalar,
-    weights: &[f64],
-    values: impl Fn(usize) -> &'a V,
-) {
-    out.set_zero();
-    for (j, weight) in weights.iter().enumerate() {
-        out.add_scaled(V::Scalar::from_f64(*weight), values(j));
+fn largest_change<S: Batch<Item = f64>>(
+    new: &Stages<S>,
+    old: &Stages<S>,
+    size: &Stages<S>,
+) -> [f64; 2] {
+    let (mut change, mut largest, mut poison) = (S::zero(), S::zero(), S::zero());
+    for ((x, y), z) in new.values().iter().zip(old.values()).zip(size.values()) {
+        let difference = *x - *y;
+        change = change.max(difference.abs());
+        largest = largest.max(z.abs());
+        // Zero, unless one is not finite.
+        poison = (difference + *z).mul_add(S::zero(), poison);
     }
-    out.scale(h);
+    [change, largest].map(|x| (x + poison).magnitude())
 }

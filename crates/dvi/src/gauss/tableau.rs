@@ -70,15 +70,18 @@ impl Tableau {
     /// long: the polynomial of degree `degree` nearest to the values in the $b$-weighted mean square, continued.
     ///
     /// With all degrees it is the collocation polynomial, which extrapolates badly.
-    pub(super) fn extrapolation(&self, ratio: f64, degree: usize, out: &mut [Vec<f64>]) {
+    pub(super) fn extrapolation(&self, ratio: f64, degree: usize) -> Vec<Vec<f64>> {
         let at = |x: f64, k: usize| legendre(k, Quad::from(x)).value.0;
         let degree = degree.min(self.nodes.len() - 1);
-        for (row, c) in out.iter_mut().zip(&self.nodes) {
-            for ((entry, node), weight) in row.iter_mut().zip(&self.nodes).zip(&self.weights) {
-                let term = |k| (2 * k + 1) as f64 * at(*node, k) * at(1.0 + ratio * c, k);
-                *entry = weight.high * (0..=degree).map(term).sum::<f64>();
-            }
-        }
+        let entry = |c: f64, (node, weight): (&f64, &Split)| {
+            let term = |k| (2 * k + 1) as f64 * at(*node, k) * at(1.0 + ratio * c, k);
+            weight.high * (0..=degree).map(term).sum::<f64>()
+        };
+        let row = |c: &f64| {
+            let columns = self.nodes.iter().zip(&self.weights);
+            columns.map(|column| entry(*c, column)).collect()
+        };
+        self.nodes.iter().map(row).collect()
     }
 }
 
@@ -171,9 +174,8 @@ mod tests {
     fn a_polynomial_is_extrapolated_exactly() {
         let tableau = Tableau::gauss(6);
         let cubic = |x: f64| 1.0 - 2.0 * x + 0.5 * x.powi(3);
-        let mut matrix = vec![vec![0.0; 6]; 6];
         for ratio in [1.0, 0.5, -1.0] {
-            tableau.extrapolation(ratio, 3, &mut matrix);
+            let matrix = tableau.extrapolation(ratio, 3);
             for (row, c) in matrix.iter().zip(&tableau.nodes) {
                 let terms = row.iter().zip(&tableau.nodes).map(|(w, c)| w * cubic(*c));
                 assert!((terms.sum::<f64>() - cubic(1.0 + ratio * c)).abs() < 1e-13);

@@ -1,0 +1,233 @@
+//! Vectors and coefficients of the stages, as many of them side by side as the scalar has items.
+
+use lie::{Batch, Scalar};
+
+use super::tableau::{Split, Tableau};
+
+/// A vector for each stage. A *block* holds the same coordinates of `S::ITEMS` stages side by side; where the last block has more
+/// items than stages are left, it repeats the last stage.
+#[derive(Clone)]
+pub(super) struct Stages<S> {
+    dim: usize,
+    values: Vec<S>,
+}
+
+impl<S: Batch> Stages<S> {
+    pub(super) fn new(stages: usize, dim: usize) -> Self {
+        Self {
+            dim,
+            values: vec![S::zero(); blocks::<S>(stages) * dim],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn blocks(&self) -> usize {
+        self.values.len() / self.dim.max(1)
+    }
+
+    #[inline(always)]
+    pub(super) fn block(&self, k: usize) -> &[S] {
+        &self.values[k * self.dim..][..self.dim]
+    }
+
+    #[inline(always)]
+    pub(super) fn block_mut(&mut self, k: usize) -> &mut [S] {
+        &mut self.values[k * self.dim..][..self.dim]
+    }
+
+    /// Coordinate `d` at stage `i`.
+    #[inline(always)]
+    pub(super) fn get(&self, i: usize, d: usize) -> S::Item {
+        S::items(self.block(i / S::ITEMS))[d * S::ITEMS + i % S::ITEMS]
+    }
+
+    /// Sets coordinate `d` at stage `i` of `stages`, and at those that repeat it.
+    pub(super) fn set(&mut self, stages: usize, i: usize, d: usize, value: S::Item) {
+        let repeats = if i + 1 == stages { self.blocks() * S::ITEMS } else { i + 1 };
+        for i in i..repeats {
+            S::items_mut(self.block_mut(i / S::ITEMS))[d * S::ITEMS + i % S::ITEMS] = value;
+        }
+    }
+
+    /// The same vector at every stage.
+    pub(super) fn fill(&mut self, value: impl Fn(usize) -> S::Item) {
+        for k in 0..self.blocks() {
+            for (d, x) in self.block_mut(k).iter_mut().enumerate() {
+                *x = S::splat(value(d));
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.values.copy_from_slice(&other.values);
+    }
+
+    #[inline(always)]
+    pub(super) fn values(&self) -> &[S] {
+        &self.values
+    }
+}
+
+fn blocks<S: Batch>(stages: usize) -> usize {
+    stages.div_ceil(S::ITEMS)
+}
+
+/// A row of coefficients for each stage, a column for each stage.
+pub(super) struct Matrix<S> {
+    /// Columns, filled up with zeros.
+    columns: usize,
+    values: Vec<S>,
+}
+
+impl<S: Batch> Matrix<S> {
+    pub(super) fn new(stages: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
+        let columns = blocks::<S>(stages) * S::ITEMS;
+        let mut matrix = Self {
+            columns,
+            values: vec![S::zero(); blocks::<S>(stages) * columns],
+        };
+        matrix.set(stages, entry);
+        matrix
+    }
+
+    pub(super) fn set(&mut self, stages: usize, entry: impl Fn(usize, usize) -> f64) {
+        for k in 0..blocks::<S>(stages) {
+            for j in 0..stages {
+                self.values[k * self.columns + j] = side_by_side(stages, k, |i| entry(i, j));
+            }
+        }
+    }
+
+    /// Adds the products with the values to `out`, a block of which starts as `start`: $o_i = s + h (e_i + \sum_j m_{ij} v_j)$.
+    #[inline(always)]
+    pub(super) fn combine(
+        &self,
+        out: &mut Stages<S>,
+        (h, extra): (S::Item, &Stages<S>),
+        values: &Stages<S>,
+        start: impl Fn(usize) -> S::Item,
+    ) {
+        let h = S::splat(h);
+        for k in 0..out.blocks() {
+            for d in 0..out.dim {
+                let sum = self.product(k, d, values, extra.block(k)[d]);
+                out.block_mut(k)[d] = h.mul_add(sum, S::splat(start(d)));
+            }
+        }
+    }
+
+    /// The products alone, $o_i = \sum_j m_{ij} v_j$.
+    #[inline(always)]
+    pub(super) fn apply(&self, out: &mut Stages<S>, values: &Stages<S>) {
+        for k in 0..out.blocks() {
+            for d in 0..out.dim {
+                out.block_mut(k)[d] = self.product(k, d, values, S::zero());
+            }
+        }
+    }
+
+    /// $x + \sum_j m_{ij} v_j$ for the stages of block `k` and coordinate `d`.
+    #[inline(always)]
+    fn product(&self, k: usize, d: usize, values: &Stages<S>, x: S) -> S {
+        let row = &self.values[k * self.columns..][..self.columns];
+        let mut sum = x;
+        for (l, weights) in row.chunks_exact(S::ITEMS).enumerate() {
+            let items = &S::items(values.block(l))[d * S::ITEMS..][..S::ITEMS];
+            for (weight, item) in weights.iter().zip(items) {
+                sum = S::splat(*item).mul_add(*weight, sum);
+            }
+        }
+        sum
+    }
+}
+
+/// An entry for each stage of block `k`.
+fn side_by_side<S: Batch>(stages: usize, k: usize, entry: impl Fn(usize) -> f64) -> S {
+    let mut values = [S::zero()];
+    for (lane, item) in S::items_mut(&mut values).iter_mut().enumerate() {
+        *item = S::Item::from_f64(entry((k * S::ITEMS + lane).min(stages - 1)));
+    }
+    values[0]
+}
+
+/// A matrix of coefficients, and what rounding leaves out of it.
+pub(super) struct SplitMatrix<S> {
+    pub(super) high: Matrix<S>,
+    pub(super) low: Matrix<S>,
+}
+
+impl<S: Batch> SplitMatrix<S> {
+    fn new(rows: &[Vec<Split>]) -> Self {
+        Self {
+            high: Matrix::new(rows.len(), |i, j| rows[i][j].high),
+            low: Matrix::new(rows.len(), |i, j| rows[i][j].low),
+        }
+    }
+}
+
+/// A coefficient for each stage.
+pub(super) struct Row<S> {
+    high: Vec<S>,
+    low: Vec<S>,
+}
+
+impl<S: Batch> Row<S> {
+    fn new(row: &[Split]) -> Self {
+        let stages = row.len();
+        // Repeated stages do not count twice.
+        let only_once = |k: usize, part: &dyn Fn(&Split) -> f64| {
+            let mut values = [S::zero()];
+            for (lane, item) in S::items_mut(&mut values).iter_mut().enumerate() {
+                let weight = row.get(k * S::ITEMS + lane).map_or(0.0, part);
+                *item = S::Item::from_f64(weight);
+            }
+            values[0]
+        };
+        let all = |part: &dyn Fn(&Split) -> f64| {
+            (0..blocks::<S>(stages)).map(|k| only_once(k, part)).collect()
+        };
+        Self {
+            high: all(&|x| x.high),
+            low: all(&|x| x.low),
+        }
+    }
+
+    /// $\sum_i b_i v_i$ in coordinate `d`.
+    #[inline(always)]
+    pub(super) fn sum(&self, values: &Stages<S>, d: usize) -> S::Item {
+        let mut sum = S::zero();
+        for (k, weight) in self.low.iter().enumerate() {
+            sum = weight.mul_add(values.block(k)[d], sum);
+        }
+        for (k, weight) in self.high.iter().enumerate() {
+            sum = weight.mul_add(values.block(k)[d], sum);
+        }
+        sum.sum()
+    }
+}
+
+/// The coefficients of collocation for stages side by side.
+pub(super) struct Coefficients<S> {
+    /// $c_i$, block by block.
+    pub(super) nodes: Vec<S>,
+    /// $b_i$.
+    pub(super) weights: Row<S>,
+    /// $a_{ij}$.
+    pub(super) forward: SplitMatrix<S>,
+    /// $b_j - a_{ij}$.
+    pub(super) backward: SplitMatrix<S>,
+}
+
+impl<S: Batch> Coefficients<S> {
+    pub(super) fn new(tableau: &Tableau) -> Self {
+        let stages = tableau.nodes.len();
+        let node = |k| side_by_side(stages, k, |i| tableau.nodes[i]);
+        Self {
+            nodes: (0..blocks::<S>(stages)).map(node).collect(),
+            weights: Row::new(&tableau.weights),
+            forward: SplitMatrix::new(&tableau.forward),
+            backward: SplitMatrix::new(&tableau.backward),
+        }
+    }
+}

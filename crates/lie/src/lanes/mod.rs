@@ -1,0 +1,137 @@
+//! SIMD registers as scalars, with the instruction set chosen at run time.
+//!
+//! A [`Job`] is written once over any [`Batch`] of doubles; [`run`] calls it with the widest one that this processor has.
+//! What it calls must be inlined whole (`#[inline(always)]`) to be compiled for that instruction set: a call that is left
+//! over is right as well, but passes registers through memory and costs more than it saves.
+//!
+//! ```
+//! use lie::lanes::{self, InstructionSet, Job};
+//! use lie::Batch;
+//!
+//! /// The norms of (x, 1), all at once.
+//! struct Norms<'a>(&'a mut [f64]);
+//!
+//! impl Job for Norms<'_> {
+//!     type Output = ();
+//!     fn run<S: Batch<Item = f64>>(self) {
+//!         let mut x = vec![S::splat(0.0); self.0.len().div_ceil(S::ITEMS)];
+//!         S::items_mut(&mut x)[..self.0.len()].copy_from_slice(self.0);
+//!         S::run(#[inline(always)] || x.iter_mut().for_each(|x| *x = (*x * *x + S::one()).sqrt()));
+//!         self.0.copy_from_slice(&S::items(&x)[..self.0.len()]);
+//!     }
+//! }
+//!
+//! let mut x = [0.0, 3.0_f64.sqrt(), 8.0_f64.sqrt()];
+//! lanes::run(InstructionSet::widest(x.len()), Norms(&mut x));
+//! assert!((x[2] - 3.0).abs() < 1e-15);
+//! ```
+
+mod register;
+
+use core::fmt;
+
+use crate::Batch;
+use register::Register;
+
+/// Something to compute over any scalar that is made of doubles.
+pub trait Job {
+    /// What comes out.
+    type Output;
+
+    /// Computes it. The parts that are worth it go through [`Batch::run`].
+    fn run<S: Batch<Item = f64>>(self) -> Self::Output;
+}
+
+/// The instructions that numbers are computed with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum InstructionSet {
+    /// What the program was compiled for, one double at a time.
+    Baseline,
+    /// Two doubles by NEON.
+    Neon,
+    /// Two doubles by FMA, in the lower half of AVX2's registers; the fastest for one, too.
+    Fma,
+    /// Four doubles by AVX2 and FMA.
+    Avx2,
+    /// Eight doubles by AVX-512.
+    Avx512,
+}
+
+impl InstructionSet {
+    const ALL: [Self; 5] = [
+        Self::Baseline,
+        Self::Neon,
+        Self::Fma,
+        Self::Avx2,
+        Self::Avx512,
+    ];
+
+    /// Those that this processor has, the baseline first.
+    pub fn available() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|set| set.is_available())
+    }
+
+    /// The one that computes `items` doubles side by side fastest: no wider than needed.
+    pub fn widest(items: usize) -> Self {
+        let wanted: &[Self] = match items {
+            0 | 1 => &[],
+            2 => &[Self::Fma, Self::Neon],
+            3 | 4 => &[Self::Avx2, Self::Neon],
+            _ => &[Self::Avx512, Self::Avx2, Self::Neon],
+        };
+        let found = wanted.iter().find(|set| set.is_available());
+        found.copied().unwrap_or(Self::Baseline)
+    }
+
+    /// The fastest for one double at a time, whatever else its registers hold.
+    pub fn single() -> Self {
+        let fused = Self::Fma.is_available();
+        if fused { Self::Fma } else { Self::Baseline }
+    }
+
+    /// Whether this processor has it.
+    pub fn is_available(self) -> bool {
+        match self {
+            Self::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Fma => register::Fma::is_available(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => register::Avx2::is_available(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => register::Avx512::is_available(),
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon => register::Neon::is_available(),
+            #[allow(unreachable_patterns, reason = "those of other architectures")]
+            _ => false,
+        }
+    }
+}
+
+impl fmt::Display for InstructionSet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Baseline => "baseline",
+            Self::Fma => "fma",
+            Self::Neon => "neon",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        })
+    }
+}
+
+/// Does the job by these instructions; by the baseline where the processor does not have them.
+pub fn run<J: Job>(set: InstructionSet, job: J) -> J::Output {
+    match set {
+        _ if !set.is_available() => job.run::<f64>(),
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Fma => job.run::<register::Lanes<register::Fma>>(),
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx2 => job.run::<register::Lanes<register::Avx2>>(),
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx512 => job.run::<register::Lanes<register::Avx512>>(),
+        #[cfg(target_arch = "aarch64")]
+        InstructionSet::Neon => job.run::<register::Lanes<register::Neon>>(),
+        _ => job.run::<f64>(),
+    }
+}

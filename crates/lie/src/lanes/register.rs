@@ -1,0 +1,276 @@
+//! One SIMD register of doubles.
+//!
+//! The types are not to be named outside: whoever holds a value of one was given it by [`run`](super::run), after the
+//! processor was asked.
+
+use core::fmt::Debug;
+use core::ops::{
+    Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
+};
+
+use num_traits::{One, Zero};
+use pulp::{Simd, WithSimd, bytemuck};
+
+use crate::{Batch, DualNumber, Scalar};
+
+/// The registers of an instruction set.
+pub trait Register: Copy + Debug + 'static {
+    type Simd: Simd;
+
+    fn is_available() -> bool;
+
+    /// To be called only where it [is available](Self::is_available).
+    fn token() -> Self::Simd;
+}
+
+macro_rules! register {
+    ($name:ident, $simd:ty, $features:ty, $token:expr) => {
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name;
+
+        impl Register for $name {
+            type Simd = $simd;
+
+            #[inline]
+            fn is_available() -> bool {
+                <$features>::try_new().is_some()
+            }
+
+            #[inline(always)]
+            #[allow(unsafe_code, reason = "`run` has asked the processor")]
+            fn token() -> $simd {
+                $token(unsafe { <$features>::new_unchecked() })
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+register!(Fma, pulp::x86::V3_128b, pulp::x86::V3, pulp::x86::V3_128b);
+#[cfg(target_arch = "x86_64")]
+register!(Avx2, pulp::x86::V3, pulp::x86::V3, core::convert::identity);
+#[cfg(target_arch = "x86_64")]
+register!(Avx512, pulp::x86::V4, pulp::x86::V4, core::convert::identity);
+#[cfg(target_arch = "aarch64")]
+register!(Neon, pulp::aarch64::Neon, pulp::aarch64::Neon, core::convert::identity);
+
+type Doubles<R> = <<R as Register>::Simd as Simd>::f64s;
+
+/// As many doubles as a register of `R` holds.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub struct Lanes<R: Register>(Doubles<R>);
+
+impl<R: Register> Lanes<R> {
+    /// Number by number, for what the registers cannot do.
+    #[inline(always)]
+    fn each(mut self, f: impl Fn(usize, f64) -> f64) -> Self {
+        for (i, x) in self.numbers_mut().iter_mut().enumerate() {
+            *x = f(i, *x);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn numbers(&self) -> &[f64] {
+        bytemuck::cast_slice(core::slice::from_ref(&self.0))
+    }
+
+    #[inline(always)]
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        bytemuck::cast_slice_mut(core::slice::from_mut(&mut self.0))
+    }
+}
+
+macro_rules! operator {
+    ($($trait:ident $method:ident $assign:ident $assign_method:ident $of_simd:ident),+) => { $(
+        impl<R: Register> $trait for Lanes<R> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, y: Self) -> Self {
+                Self(R::token().$of_simd(self.0, y.0))
+            }
+        }
+
+        impl<R: Register> $assign for Lanes<R> {
+            #[inline(always)]
+            fn $assign_method(&mut self, y: Self) {
+                *self = Self(R::token().$of_simd(self.0, y.0));
+            }
+        }
+    )+ };
+}
+
+operator!(
+    Add add AddAssign add_assign add_f64s,
+    Sub sub SubAssign sub_assign sub_f64s,
+    Mul mul MulAssign mul_assign mul_f64s,
+    Div div DivAssign div_assign div_f64s
+);
+
+impl<R: Register> Rem for Lanes<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn rem(self, y: Self) -> Self {
+        self.each(|i, x| x % y.numbers()[i])
+    }
+}
+
+impl<R: Register> RemAssign for Lanes<R> {
+    #[inline(always)]
+    fn rem_assign(&mut self, y: Self) {
+        *self = *self % y;
+    }
+}
+
+impl<R: Register> Neg for Lanes<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(R::token().neg_f64s(self.0))
+    }
+}
+
+impl<R: Register> PartialEq for Lanes<R> {
+    #[inline(always)]
+    fn eq(&self, y: &Self) -> bool {
+        self.numbers() == y.numbers()
+    }
+}
+
+impl<R: Register> Zero for Lanes<R> {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+    #[inline(always)]
+    fn is_zero(&self) -> bool {
+        self.numbers().iter().all(|x| *x == 0.0)
+    }
+}
+
+impl<R: Register> One for Lanes<R> {
+    #[inline(always)]
+    fn one() -> Self {
+        Self::splat(1.0)
+    }
+}
+
+impl<R: Register> Scalar for Lanes<R> {
+    type Mask = <R::Simd as Simd>::m64s;
+    type Real = Self;
+    type Jet = DualNumber<Self>;
+    const EPSILON: f64 = f64::EPSILON;
+    const DUAL_LEVELS: u32 = 0;
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        Self::splat(x)
+    }
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        Self(R::token().mul_add_e_f64s(self.0, a.0, b.0))
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, a: Self, b: Self) -> Self {
+        Self(R::token().negate_mul_add_e_f64s(self.0, a.0, b.0))
+    }
+    #[inline(always)]
+    fn real(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn from_real(x: Self) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(R::token().sqrt_f64s(self.0))
+    }
+    #[inline(always)]
+    fn exp(self) -> Self {
+        self.each(|_, x| x.exp())
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.each(|_, x| x.ln())
+    }
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        self.each(|_, x| x.tanh())
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.each(|_, x| x.sin()), self.each(|_, x| x.cos()))
+    }
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        self.each(|i, y| y.atan2(x.numbers()[i]))
+    }
+    #[inline(always)]
+    fn less(self, rhs: Self) -> Self::Mask {
+        R::token().less_than_f64s(self.0, rhs.0)
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(R::token().select_f64s(mask, yes.0, no.0))
+    }
+    /// The largest of them; not a number where one is not.
+    #[inline(always)]
+    fn magnitude(self) -> f64 {
+        let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
+        self.numbers().iter().map(|x| x.abs()).fold(0.0, larger)
+    }
+}
+
+impl<R: Register> Batch for Lanes<R> {
+    type Item = f64;
+    const ITEMS: usize = R::Simd::F64_LANES;
+
+    #[inline(always)]
+    fn splat(item: f64) -> Self {
+        Self(R::token().splat_f64s(item))
+    }
+
+    #[inline(always)]
+    #[allow(unsafe_code, reason = "a transparent wrapper of plain doubles")]
+    fn items(batches: &[Self]) -> &[f64] {
+        let length = batches.len() * Self::ITEMS;
+        unsafe { core::slice::from_raw_parts(batches.as_ptr().cast(), length) }
+    }
+
+    #[inline(always)]
+    #[allow(unsafe_code, reason = "a transparent wrapper of plain doubles")]
+    fn items_mut(batches: &mut [Self]) -> &mut [f64] {
+        let length = batches.len() * Self::ITEMS;
+        unsafe { core::slice::from_raw_parts_mut(batches.as_mut_ptr().cast(), length) }
+    }
+
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        R::token().reduce_sum_f64s(self.0)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(R::token().abs_f64s(self.0))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(R::token().max_f64s(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn run<O>(f: impl FnOnce() -> O) -> O {
+        struct Call<F>(F);
+        impl<O, F: FnOnce() -> O> WithSimd for Call<F> {
+            type Output = O;
+            #[inline(always)]
+            fn with_simd<S: Simd>(self, _: S) -> O {
+                (self.0)()
+            }
+        }
+        R::token().vectorize(Call(f))
+    }
+}
