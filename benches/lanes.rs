@@ -74,13 +74,21 @@ fn evaluate<S: Batch>(
 #[divan::bench(args = InstructionSet::available())]
 fn fish_x1000(bencher: Bencher, set: InstructionSet) {
     let (model, state) = chain(3);
-    let job = Evaluate { model: &model, state: &state, bencher };
+    let job = Evaluate {
+        model: &model,
+        state: &state,
+        bencher,
+    };
     lanes::run(set, job);
 }
 
 #[divan::bench(args = InstructionSet::available())]
 fn eel_x1000(bencher: Bencher, set: InstructionSet) {
     let (model, state) = chain(30);
-    let job = Evaluate { model: &model, state: &state, bencher };
+    let job = Evaluate {
+        model: &model,
+        state: &state,
+        bencher,
+    };
     lanes::run(set, job);
 }

@@ -293,6 +293,16 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         f.inverse_coadjoint_into(tau, force);
     }
 
+    /// The first of [these](Self::chart_rates_into) alone: $\dot c = \mathrm d\tau_c^{-1} \xi$.
+    #[inline(always)]
+    fn chart_velocity_into<R: Retraction>(
+        c: &Self::Algebra,
+        xi: &Self::Algebra,
+        c_dot: &mut Self::Algebra,
+    ) {
+        *c_dot = R::d_left_inv::<Self>(c, xi);
+    }
+
     /// [`convert`](Self::convert) into `out`.
     #[inline(always)]
     fn convert_into<S: Scalar, T: Scalar>(

@@ -46,7 +46,9 @@ impl<S: Scalar> Mat3<S> {
     /// $A^T x$, without forming the transpose.
     #[inline(always)]
     pub fn transpose_mul(self, x: Vec3<S>) -> Vec3<S> {
-        (self.row(0) * x[0]).plus(x[1], self.row(1)).plus(x[2], self.row(2))
+        (self.row(0) * x[0])
+            .plus(x[1], self.row(1))
+            .plus(x[2], self.row(2))
     }
 
     /// Row `i`.

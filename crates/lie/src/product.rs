@@ -299,6 +299,14 @@ macro_rules! tuple {
                 );)+
             }
             #[inline(always)]
+            fn chart_velocity_into<R_: Retraction>(
+                c: &Self::Algebra,
+                xi: &Self::Algebra,
+                c_dot: &mut Self::Algebra,
+            ) {
+                $($G::chart_velocity_into::<R_>(&c.$i, &xi.$i, &mut c_dot.$i);)+
+            }
+            #[inline(always)]
             fn exp_into(xi: &Self::Algebra, out: &mut Self) {
                 $($G::exp_into(&xi.$i, &mut out.$i);)+
             }
@@ -594,6 +602,16 @@ macro_rules! repeated {
                 for i in 0..c.len() {
                     let out = (&mut c_dot[i], &mut pi_dot[i], &mut force[i]);
                     $G::chart_rates_into::<R_>((&c[i], &pi[i], &f[i]), (&xi[i], &tau[i]), out);
+                }
+            }
+            #[inline(always)]
+            fn chart_velocity_into<R_: Retraction>(
+                c: &Self::Algebra,
+                xi: &Self::Algebra,
+                c_dot: &mut Self::Algebra,
+            ) {
+                for i in 0..c.len() {
+                    $G::chart_velocity_into::<R_>(&c[i], &xi[i], &mut c_dot[i]);
                 }
             }
             #[inline(always)]

@@ -52,6 +52,21 @@ impl<S: Scalar> Sym3<S> {
         ])
     }
 
+    /// The upper triangle of $\hat x A$, where that is symmetric.
+    #[inline(always)]
+    pub fn hat_times(x: Vec3<S>, a: &Mat3<S>) -> Self {
+        let ([x, y, z], [p, q, r]) = (x.0, a.0);
+        let entry = |a: S, p: S, b: S, q: S| b.neg_mul_add(q, a * p);
+        Self([
+            entry(y, r[0], z, q[0]),
+            entry(y, r[1], z, q[1]),
+            entry(y, r[2], z, q[2]),
+            entry(z, p[1], x, r[1]),
+            entry(z, p[2], x, r[2]),
+            entry(x, q[2], y, p[2]),
+        ])
+    }
+
     /// All nine entries.
     #[inline(always)]
     pub fn matrix(&self) -> Mat3<S> {

@@ -45,7 +45,11 @@ impl<S: Scalar> Vec3<S> {
     #[inline(always)]
     pub fn plus(self, a: S, y: Self) -> Self {
         let [x0, x1, x2] = self.0;
-        Self([y[0].mul_add(a, x0), y[1].mul_add(a, x1), y[2].mul_add(a, x2)])
+        Self([
+            y[0].mul_add(a, x0),
+            y[1].mul_add(a, x1),
+            y[2].mul_add(a, x2),
+        ])
     }
 
     /// The hat map $\hat{\cdot}: \mathbb{R}^3 \to \mathfrak{so}(3)$, $\hat x y = x \times y$.

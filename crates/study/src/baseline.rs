@@ -90,7 +90,7 @@ impl Tolerance {
         }
     }
 
-    fn check(self) -> Result<(), BaselineError> {
+    pub(crate) fn check(self) -> Result<(), BaselineError> {
         let relative = self.relative >= Self::SMALLEST_RELATIVE && self.relative < 1.0;
         let absolute = self.absolute > 0.0 && self.absolute.is_finite();
         if relative && absolute {
@@ -176,7 +176,7 @@ pub fn integrate(
 /// Steps, accepted and rejected, after which [`integrate`] gives up.
 pub const MAX_STEPS: usize = 10_000_000;
 
-fn check_state(y0: &[f64]) -> Result<(), BaselineError> {
+pub(crate) fn check_state(y0: &[f64]) -> Result<(), BaselineError> {
     if y0.is_empty() {
         return Err(BaselineError::EmptyState);
     }

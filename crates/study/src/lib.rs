@@ -14,6 +14,7 @@
 //!   font of the system.
 
 pub mod baseline;
+pub mod dop853;
 pub mod figure;
 pub mod methods;
 pub mod on_group;

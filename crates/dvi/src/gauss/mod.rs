@@ -65,7 +65,7 @@ use work::{Stepper, stepper};
 /// ```
 pub struct Gauss<C: ContinuousSystem, const S: usize, R = Cayley> {
     system: C,
-    tableau: Tableau,
+    tableau: &'static Tableau,
     tolerance: f64,
     instructions: InstructionSet,
     steps: u64,
@@ -147,7 +147,7 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R
         h: f64,
     ) -> Result<(StepReport, &mut dyn Stepper<C>), StepError> {
         self.check(state, h)?;
-        let (system, tableau) = (&self.system, &self.tableau);
+        let (system, tableau) = (&self.system, self.tableau);
         let work = match self.work.take() {
             Some(work) if work.fits(&state.g) => work,
             _ => stepper::<C, R>(self.instructions, system, tableau, &state.g),
@@ -229,7 +229,7 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> FirstVariatio
         let (report, _) = self.solve(state, h)?;
         let mut carried = variations.to_vec();
         if let Some(work) = &mut self.work {
-            work.carry((&self.system, &self.tableau), (state, h), &mut carried);
+            work.carry((&self.system, self.tableau), (state, h), &mut carried);
         }
         if !carried.iter().all(Variation::is_finite) {
             let (step, t) = (self.steps, state.t);

@@ -20,6 +20,8 @@ const IDLE: u32 = 3;
 const EXHAUSTED: [f64; 2] = [0.1 * f64::EPSILON, 4.0 * f64::EPSILON];
 /// Contraction of Newton's method that keeps its matrix, from step to step too.
 const KEEPS_MATRIX: f64 = 0.3;
+/// Sweeps from one look at $\pi_0$ to the next.
+const LOOKS_AT_END: u32 = 2;
 /// A change of $\pi_0$ this much larger than that of the rates, both relative, is no echo of it.
 const KNOWN_BETTER: f64 = 0.01;
 /// The shortest part of a correction that is tried.
@@ -66,6 +68,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             Ended::Slow(report) => (report, self.predictor.is_known()),
         };
         self.predictor.forget();
+        self.long_steps = 0;
         if starts && let Ended::Solved(again) = self.attempt::<R>(method, start, tolerance)? {
             let iterations = report.iterations + again.iterations;
             return Ok(StepReport {
@@ -77,7 +80,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         let h = self.shorter::<R>(method, start, tolerance);
         self.predictor.forget();
         self.update.forget();
-        self.drift.set_zero();
+        self.drift.fill(0.0);
         Err(Failure::NotConverged(report, Hint::SmallerStep { h }))
     }
 
@@ -114,7 +117,6 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             return Err(Failure::NotFinite);
         }
         self.sweep.evaluate::<R>(system, (state.t, h));
-        self.sweep.gather(&state.mu, h);
         Ok(())
     }
 
@@ -132,39 +134,35 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         self.guess::<R>(method, (state, h))?;
         let system = method.0;
         self.sweep.round_from_start();
-        self.start.set_sum(&state.mu, 1.0, &self.drift);
+        state.mu.write(&mut self.start);
+        for (start, drift) in self.start.iter_mut().zip(&self.drift) {
+            *start += drift;
+        }
         let enough = tolerance.max(8.0 * f64::EPSILON);
         let mut changes = Changes::default();
         let mut report = StepReport::default();
         for iterations in 2..=MAX_SWEEPS {
-            self.remember();
-            let Self {
-                sweep,
-                start,
-                wanted,
-                ..
-            } = &mut *self;
-            sweep.place_from(h, start);
-            sweep.evaluate::<R>(system, (state.t, h));
-            sweep.gather(&state.mu, h);
-            sweep.end_to_start::<R>(h, wanted);
-            start.add_scaled(-1.0, wanted);
-            // A body at rest has a momentum only in between.
-            let size = larger(state.mu.max_magnitude(), sweep.end.momentum.max_magnitude());
-            let apart = relative(start.max_magnitude(), size);
-            start.add_scaled(1.0, wanted);
-            changes.push(self.sweep.change(&self.last, h));
+            self.sweep
+                .from_start::<R>(system, (state.t, h), &self.start);
+            changes.push(self.sweep.change(h));
+            if iterations == 2 {
+                self.predictor.judge(changes.now);
+            }
             report = StepReport {
                 iterations,
-                residual: larger(changes.now, apart),
+                residual: changes.now,
             };
             let solved = changes.are_solved(tolerance);
-            if solved && apart <= enough {
-                return Ok(Ended::Solved(report));
-            }
-            if solved || (apart > enough && apart > KNOWN_BETTER * changes.now) {
-                self.start.copy_from(&self.wanted);
-                changes = Changes::default();
+            if solved || iterations % LOOKS_AT_END == 0 {
+                let apart = self.apart::<R>((state, h));
+                report.residual = larger(changes.now, apart);
+                if solved && apart <= enough {
+                    return Ok(Ended::Solved(report));
+                }
+                if solved || (apart > enough && apart > KNOWN_BETTER * changes.now) {
+                    self.start.copy_from_slice(&self.wanted);
+                    changes = Changes::default();
+                }
             }
             if changes.diverge() {
                 report.residual = changes.best;
@@ -174,9 +172,20 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         Ok(Ended::Slow(report))
     }
 
-    fn remember(&mut self) {
-        self.last.0.copy_from(&self.sweep.c_dot);
-        self.last.1.copy_from(&self.sweep.pi_dot);
+    /// How far $\pi_0$ is from what the step's end asks for, relative to the momentum.
+    fn apart<R: Retraction>(&mut self, (state, h): Start<C>) -> f64 {
+        let Self {
+            sweep,
+            start,
+            wanted,
+            ..
+        } = &mut *self;
+        sweep.end_to_start::<R>(h, &state.mu, wanted);
+        let differences = start.iter().zip(&*wanted).map(|(a, b)| (a - b).abs());
+        // A body at rest has a momentum only in between.
+        let momentum = sweep.end.momentum.max_magnitude();
+        let size = larger(state.mu.max_magnitude(), momentum);
+        relative(differences.fold(0.0, larger), size)
     }
 
     /// Newton's method on the sweep, with halved corrections where they overshoot.
@@ -203,6 +212,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         (state, h): Start<C>,
         tolerance: f64,
     ) -> Ended {
+        self.sweep.gather(&state.mu, h);
         self.sweep.round_from_end();
         self.sweep.write(&mut newton.x);
         let (mut last, mut damping) = (f64::INFINITY, 1.0);
@@ -210,18 +220,16 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         let (mut report, mut best) = (StepReport::default(), f64::INFINITY);
         for iterations in 1..=MAX_NEWTON {
             self.sweep.read(&newton.x);
-            self.remember();
-            self.sweep.place::<R>(h);
-            self.sweep.evaluate::<R>(system, (state.t, h));
+            self.sweep.from_end::<R>(system, (state.t, h));
             self.sweep.gather(&state.mu, h);
-            let change = self.sweep.change(&self.last, h);
+            let change = self.sweep.change(h);
             best = best.min(change);
             report = StepReport {
                 iterations,
                 residual: best,
             };
             if is_solved(change, last, tolerance) {
-                self.sweep.end_to_start::<R>(h, &mut self.start);
+                self.sweep.end_to_start::<R>(h, &state.mu, &mut self.start);
                 return Ended::Solved(report);
             }
             if damping > SHORTEST && (change.is_nan() || change > 2.0 * last) {

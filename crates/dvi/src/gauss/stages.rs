@@ -43,19 +43,19 @@ impl<S: Batch> Stages<S> {
 
     /// Sets coordinate `d` at stage `i` of `stages`, and at those that repeat it.
     pub(super) fn set(&mut self, stages: usize, i: usize, d: usize, value: S::Item) {
-        let repeats = if i + 1 == stages { self.blocks() * S::ITEMS } else { i + 1 };
+        let repeats = if i + 1 == stages {
+            self.blocks() * S::ITEMS
+        } else {
+            i + 1
+        };
         for i in i..repeats {
             S::items_mut(self.block_mut(i / S::ITEMS))[d * S::ITEMS + i % S::ITEMS] = value;
         }
     }
 
-    /// The same vector at every stage.
-    pub(super) fn fill(&mut self, value: impl Fn(usize) -> S::Item) {
-        for k in 0..self.blocks() {
-            for (d, x) in self.block_mut(k).iter_mut().enumerate() {
-                *x = S::splat(value(d));
-            }
-        }
+    #[inline(always)]
+    pub(super) fn set_zero(&mut self) {
+        self.values.fill(S::zero());
     }
 
     #[inline(always)]
@@ -87,58 +87,54 @@ impl<S: Batch> Matrix<S> {
             columns,
             values: vec![S::zero(); blocks::<S>(stages) * columns],
         };
-        matrix.set(stages, entry);
+        for k in 0..blocks::<S>(stages) {
+            for j in 0..stages {
+                matrix.values[k * columns + j] = side_by_side(stages, k, |i| entry(i, j));
+            }
+        }
         matrix
     }
 
-    pub(super) fn set(&mut self, stages: usize, entry: impl Fn(usize, usize) -> f64) {
-        for k in 0..blocks::<S>(stages) {
-            for j in 0..stages {
-                self.values[k * self.columns + j] = side_by_side(stages, k, |i| entry(i, j));
-            }
-        }
-    }
-
-    /// Adds the products with the values to `out`, a block of which starts as `start`: $o_i = s + h (e_i + \sum_j m_{ij} v_j)$.
+    /// $o_i = s + h (e_i + \sum_j m_{ij} v_j)$ for the stages of block `k`.
     #[inline(always)]
     pub(super) fn combine(
         &self,
+        k: usize,
         out: &mut Stages<S>,
         (h, extra): (S::Item, &Stages<S>),
         values: &Stages<S>,
-        start: impl Fn(usize) -> S::Item,
+        start: &[S::Item],
     ) {
+        let out = out.block_mut(k);
+        out.copy_from_slice(extra.block(k));
+        self.add_products(k, out, values);
         let h = S::splat(h);
-        for k in 0..out.blocks() {
-            for d in 0..out.dim {
-                let sum = self.product(k, d, values, extra.block(k)[d]);
-                out.block_mut(k)[d] = h.mul_add(sum, S::splat(start(d)));
-            }
+        for (out, start) in out.iter_mut().zip(start) {
+            *out = h.mul_add(*out, S::splat(*start));
         }
     }
 
-    /// The products alone, $o_i = \sum_j m_{ij} v_j$.
+    /// Adds $\sum_j m_{ij} v_j$.
     #[inline(always)]
-    pub(super) fn apply(&self, out: &mut Stages<S>, values: &Stages<S>) {
+    pub(super) fn add(&self, out: &mut Stages<S>, values: &Stages<S>) {
         for k in 0..out.blocks() {
-            for d in 0..out.dim {
-                out.block_mut(k)[d] = self.product(k, d, values, S::zero());
-            }
+            self.add_products(k, out.block_mut(k), values);
         }
     }
 
-    /// $x + \sum_j m_{ij} v_j$ for the stages of block `k` and coordinate `d`.
+    /// Adds $\sum_j m_{ij} v_j$ for the stages of block `k`.
     #[inline(always)]
-    fn product(&self, k: usize, d: usize, values: &Stages<S>, x: S) -> S {
+    fn add_products(&self, k: usize, out: &mut [S], values: &Stages<S>) {
         let row = &self.values[k * self.columns..][..self.columns];
-        let mut sum = x;
         for (l, weights) in row.chunks_exact(S::ITEMS).enumerate() {
-            let items = &S::items(values.block(l))[d * S::ITEMS..][..S::ITEMS];
-            for (weight, item) in weights.iter().zip(items) {
-                sum = S::splat(*item).mul_add(*weight, sum);
+            let items = S::items(values.block(l)).chunks_exact(S::ITEMS);
+            for (out, items) in out.iter_mut().zip(items) {
+                let products = weights.iter().zip(items);
+                *out = products.fold(*out, |sum, (weight, item)| {
+                    S::splat(*item).mul_add(*weight, sum)
+                });
             }
         }
-        sum
     }
 }
 
@@ -185,7 +181,9 @@ impl<S: Batch> Row<S> {
             values[0]
         };
         let all = |part: &dyn Fn(&Split) -> f64| {
-            (0..blocks::<S>(stages)).map(|k| only_once(k, part)).collect()
+            (0..blocks::<S>(stages))
+                .map(|k| only_once(k, part))
+                .collect()
         };
         Self {
             high: all(&|x| x.high),
@@ -193,17 +191,19 @@ impl<S: Batch> Row<S> {
         }
     }
 
-    /// $\sum_i b_i v_i$ in coordinate `d`.
+    /// $h \sum_i b_i v_i$.
     #[inline(always)]
-    pub(super) fn sum(&self, values: &Stages<S>, d: usize) -> S::Item {
-        let mut sum = S::zero();
-        for (k, weight) in self.low.iter().enumerate() {
-            sum = weight.mul_add(values.block(k)[d], sum);
+    pub(super) fn combine(&self, out: &mut [S::Item], h: S::Item, values: &Stages<S>) {
+        for (d, out) in out.iter_mut().enumerate() {
+            let mut sum = S::zero();
+            for (k, weight) in self.low.iter().enumerate() {
+                sum = weight.mul_add(values.block(k)[d], sum);
+            }
+            for (k, weight) in self.high.iter().enumerate() {
+                sum = weight.mul_add(values.block(k)[d], sum);
+            }
+            *out = h * sum.sum();
         }
-        for (k, weight) in self.high.iter().enumerate() {
-            sum = weight.mul_add(values.block(k)[d], sum);
-        }
-        sum.sum()
     }
 }
 

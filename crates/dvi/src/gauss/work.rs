@@ -8,7 +8,6 @@ use lie::{Batch, LieGroup, Retraction, VectorSpace};
 use super::newton::SweepNewton;
 use super::predictor::Predictor;
 use super::solve::{Failure, Method, Start};
-use super::stages::Stages;
 use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use super::update::Update;
@@ -19,14 +18,12 @@ type Dual<C> = <<C as ContinuousSystem>::Group as LieGroup>::Dual;
 /// Storage of the steps; the stages are computed over `S`.
 pub(super) struct Work<C: ContinuousSystem, S: Batch<Item = f64>> {
     pub(super) sweep: Sweep<C, S>,
-    /// $\dot c$ and $\dot\pi$ of the last sweep, to see how much the next one changes.
-    pub(super) last: (Stages<S>, Stages<S>),
     pub(super) predictor: Predictor<S>,
     pub(super) update: Update<C::Group>,
     /// $\pi_0$ of the stages, what their end asks it to be, and its difference from $\mu_k$ in the last step.
-    pub(super) start: Dual<C>,
-    pub(super) wanted: Dual<C>,
-    pub(super) drift: Dual<C>,
+    pub(super) start: Vec<f64>,
+    pub(super) wanted: Vec<f64>,
+    pub(super) drift: Vec<f64>,
     /// Made when first needed.
     pub(super) newton: Option<SweepNewton<C>>,
     linearised: Option<SweepNewton<C>>,
@@ -36,16 +33,14 @@ pub(super) struct Work<C: ContinuousSystem, S: Batch<Item = f64>> {
 
 impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     fn new(system: &C, tableau: &Tableau, g: &C::Group) -> Self {
-        let (stages, dim) = (tableau.nodes.len(), g.zero_dual().dim());
-        let rates = Stages::new(stages, dim);
+        let dim = g.zero_dual().dim();
         Self {
             sweep: Sweep::new(system, tableau, g),
-            last: (rates.clone(), rates),
-            predictor: Predictor::new(stages, dim),
+            predictor: Predictor::new(),
             update: Update::new(g),
-            start: g.zero_dual(),
-            wanted: g.zero_dual(),
-            drift: g.zero_dual(),
+            start: vec![0.0; dim],
+            wanted: vec![0.0; dim],
+            drift: vec![0.0; dim],
             newton: None,
             linearised: None,
             long_steps: 0,
@@ -62,7 +57,12 @@ pub(super) trait Stepper<C: ContinuousSystem>: Send + Sync {
     fn shape(&self) -> &Dual<C>;
 
     /// Solves the stages of a step; the state stays as it is.
-    fn solve(&mut self, method: Method<C>, start: Start<C>, tolerance: f64) -> Result<StepReport, Failure>;
+    fn solve(
+        &mut self,
+        method: Method<C>,
+        start: Start<C>,
+        tolerance: f64,
+    ) -> Result<StepReport, Failure>;
 
     /// The state after the step that was solved.
     fn ahead(&self, start: Start<C>) -> State<C::Group>;
@@ -86,10 +86,15 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
     }
 
     fn shape(&self) -> &Dual<C> {
-        &self.work.start
+        &self.work.sweep.end.mu
     }
 
-    fn solve(&mut self, method: Method<C>, start: Start<C>, tolerance: f64) -> Result<StepReport, Failure> {
+    fn solve(
+        &mut self,
+        method: Method<C>,
+        start: Start<C>,
+        tolerance: f64,
+    ) -> Result<StepReport, Failure> {
         self.work.solve::<R>(method, start, tolerance)
     }
 
@@ -102,17 +107,34 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
         ahead
     }
 
-    fn carry(&mut self, (system, tableau): Method<C>, start: Start<C>, variations: &mut [Variation<C::Group>]) {
-        let Work { sweep, linearised, .. } = &mut self.work;
+    fn carry(
+        &mut self,
+        (system, tableau): Method<C>,
+        start: Start<C>,
+        variations: &mut [Variation<C::Group>],
+    ) {
+        let Work {
+            sweep, linearised, ..
+        } = &mut self.work;
         let g = &start.0.g;
         let linearised = linearised.get_or_insert_with(|| SweepNewton::new(system, tableau, g));
         linearised.carry::<R, S>(system, start, sweep, variations);
     }
 
     fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Option<()> {
-        let Work { sweep, update, predictor, start, drift, .. } = &mut self.work;
+        let Work {
+            sweep,
+            update,
+            predictor,
+            start,
+            drift,
+            ..
+        } = &mut self.work;
         let End { f, impulse, mu, .. } = &sweep.end;
-        drift.set_sum(start, -1.0, &state.mu);
+        state.mu.write(drift);
+        for (drift, start) in drift.iter_mut().zip(start) {
+            *drift = *start - *drift;
+        }
         state.copy_from(update.advance(state, h, (f, impulse, mu))?);
         predictor.record(h, sweep);
         Some(())
@@ -126,7 +148,12 @@ pub(super) fn stepper<C: ContinuousSystem + 'static, R: Retraction>(
     tableau: &Tableau,
     g: &C::Group,
 ) -> Box<dyn Stepper<C>> {
-    let new = New { system, tableau, g, retraction: PhantomData::<R> };
+    let new = New {
+        system,
+        tableau,
+        g,
+        retraction: PhantomData::<R>,
+    };
     match C::INLINE {
         true => run(instructions, new),
         false => new.run::<f64>(),

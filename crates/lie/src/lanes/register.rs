@@ -50,9 +50,19 @@ register!(Fma, pulp::x86::V3_128b, pulp::x86::V3, pulp::x86::V3_128b);
 #[cfg(target_arch = "x86_64")]
 register!(Avx2, pulp::x86::V3, pulp::x86::V3, core::convert::identity);
 #[cfg(target_arch = "x86_64")]
-register!(Avx512, pulp::x86::V4, pulp::x86::V4, core::convert::identity);
+register!(
+    Avx512,
+    pulp::x86::V4,
+    pulp::x86::V4,
+    core::convert::identity
+);
 #[cfg(target_arch = "aarch64")]
-register!(Neon, pulp::aarch64::Neon, pulp::aarch64::Neon, core::convert::identity);
+register!(
+    Neon,
+    pulp::aarch64::Neon,
+    pulp::aarch64::Neon,
+    core::convert::identity
+);
 
 type Doubles<R> = <<R as Register>::Simd as Simd>::f64s;
 

@@ -31,6 +31,9 @@ pub enum BaselineError {
     /// The state has no component.
     #[error("the initial state is empty: give at least one component")]
     EmptyState,
+    /// The start is no configuration of the model.
+    #[error("the start does not fit the model: give a configuration of its size")]
+    Misfit,
     /// A component of the initial state is not finite.
     #[error("component {index} of the initial state is {value}: give finite numbers")]
     InitialState {
