@@ -9,6 +9,8 @@ use thiserror::Error;
 pub enum ValueError {
     #[error("expected a finite number > 0, in seconds")]
     Seconds,
+    #[error("expected a finite number > 0, such as 1e-9")]
+    Accuracy,
     #[error("expected a whole number >= 1")]
     Count,
 }
@@ -18,6 +20,11 @@ pub fn seconds(text: &str) -> Result<f64, ValueError> {
     let value = text.parse().map_err(|_| ValueError::Seconds)?;
     let valid = f64::is_finite(value) && value > 0.0;
     valid.then_some(value).ok_or(ValueError::Seconds)
+}
+
+/// An error to stay below: finite and positive.
+pub fn accuracy(text: &str) -> Result<f64, ValueError> {
+    seconds(text).map_err(|_| ValueError::Accuracy)
 }
 
 /// How many: at least one.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use articulated_fluid::{ModelError, SceneError};
-use dvi::StepError;
+use dvi::{PilotError, StepError};
 use thiserror::Error;
 
 use super::clock::TooManySteps;
@@ -40,6 +40,8 @@ pub enum CliError {
     Output { path: PathBuf, source: OutputError },
     #[error(transparent)]
     Step(#[from] StepError),
+    #[error("--accuracy: {0}")]
+    Pilot(#[from] PilotError),
     #[error(
         "at t = {t} s the energy or a momentum is too large for a number; check the scene's velocities and inertia"
     )]

@@ -5,10 +5,11 @@ use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use articulated_fluid::{ArticulatedBody, Configuration, SmallestModel, scene};
-use dvi::{Integrator, State, StepReport};
+use articulated_fluid::{ArticulatedBody, Configuration, scene};
+use dvi::{Integrator, Pilot, State, StepReport};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
-use study::methods::Method;
+use study::accuracy;
+use study::methods::{BoxedIntegrator, Method};
 
 use super::args;
 use super::clock::Clock;
@@ -44,6 +45,9 @@ pub struct Args {
     /// Step size, in seconds; a little shorter where whole steps would not end at --until [default: the method's, 0.001 for lgvi]
     #[arg(long, value_name = "SECONDS", value_parser = args::seconds, allow_hyphen_values = true)]
     step: Option<f64>,
+    /// Let a short pilot run choose Gauss collocation's stages and step: the attitudes' error, in radians, and the position's, in metres, by the end
+    #[arg(long, value_name = "ERROR", value_parser = args::accuracy, allow_hyphen_values = true, conflicts_with_all = ["method", "step", "full"])]
+    accuracy: Option<f64>,
     /// Write the trajectory to this CSV file: whole, or not at all
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
@@ -61,10 +65,44 @@ pub struct Args {
     json: bool,
 }
 
+/// The method of a run, and the step to take at most.
+struct Chosen {
+    method: Method,
+    step: f64,
+    pilot: Option<Pilot>,
+}
+
 impl Args {
-    /// The step to take at most, s.
-    fn step(&self) -> f64 {
-        self.step.unwrap_or_else(|| self.method.default_step())
+    /// The method and the step that were asked for, or that a pilot run finds.
+    fn choose(&self, loaded: &Loaded) -> Result<Chosen, CliError> {
+        let Some(accuracy) = self.accuracy else {
+            return Ok(Chosen {
+                method: self.method,
+                step: self.step.unwrap_or_else(|| self.method.default_step()),
+                pilot: None,
+            });
+        };
+        let bar = waiting("choosing stages and step");
+        let model = &loaded.smallest.model;
+        let pilot = accuracy::pilot(model, &loaded.start, self.until, accuracy)?;
+        bar.finish_and_clear();
+        Ok(Chosen {
+            method: accuracy::method(&pilot),
+            step: pilot.h,
+            pilot: Some(pilot),
+        })
+    }
+
+    fn integrator(&self, loaded: &Loaded, chosen: &Chosen) -> BoxedIntegrator<Configuration> {
+        let smallest = loaded.smallest.model.clone();
+        match &chosen.pilot {
+            Some(pilot) => accuracy::integrator(smallest, pilot),
+            None if self.full => {
+                let full = loaded.model.clone().keep_translation();
+                chosen.method.integrator(full)
+            }
+            None => chosen.method.integrator_of_smallest(smallest),
+        }
     }
 
     fn schedule(&self) -> Schedule {
@@ -91,6 +129,7 @@ Examples:
   lgvi run scenes/planar-fish.toml --full        the same motion without reductions, to compare
   lgvi run --method gauss-4 --every-seconds 0.04 --out film.csv
                                                  order 8 in long steps, 25 rows a second
+  lgvi run --accuracy 1e-9                       stages and step as an error of 1e-9 rad and m asks for
   lgvi run --json | jq .energy_error_max_relative
 
 CSV columns, with 17 significant digits; the first row is t = 0, the last one --until:
@@ -103,6 +142,8 @@ The keys of a scene:
 Nothing acts but weight and buoyancy: the first body floats free, every joint is a free ball joint, and no scene has a
 fixed base, a hinge, a motor, a spring or damping. Forces take the library. Under a net weight the bodies speed up, and
 the energy error grows with their speed: that of lgvi in proportion to step and time.
+With --accuracy the step is found before the run and then fixed: one that follows the motion would give up the symplectic
+form, and the bounded energy error with it. The error it is chosen by is an estimate, by a run of shorter steps; no bound.
 A method's default step suits the motion of the built-in scene; a livelier one needs a shorter --step.
 
 Exit codes:
@@ -117,19 +158,16 @@ Exit codes:
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(args.scene.as_deref())?;
     loaded.overlaps.iter().for_each(print::warning);
-    let clock = Clock::new(args.until, args.step())?;
+    let chosen = args.choose(&loaded)?;
+    let clock = Clock::new(args.until, chosen.step)?;
     args.schedule().check(&clock)?;
     // Before there is a file that an early signal would leave behind.
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
     let table = open(args, &loaded)?;
-    let model = match args.full {
-        true => SmallestModel::Fluid(loaded.model.clone().keep_translation()),
-        false => loaded.smallest.model.clone(),
-    };
-    let mut integrator = args.method.integrator_of_smallest(model);
+    let mut integrator = args.integrator(&loaded, &chosen);
     let mut run = Run::new(args, clock, &loaded, table, interrupt)?;
     run.simulate(&mut *integrator)?;
-    let summary = run.summary(args, &loaded);
+    let summary = run.summary(args, &loaded, &chosen);
     run.finish()?;
     let text = match args.json {
         true => summary.json()?,
@@ -291,9 +329,9 @@ impl<'a> Run<'a> {
             .map_err(|error| refused(path, error.into()))
     }
 
-    fn summary(&self, args: &Args, loaded: &Loaded) -> Summary {
+    fn summary(&self, args: &Args, loaded: &Loaded, chosen: &Chosen) -> Summary {
         let (clock, solver, watch) = (&self.clock, &self.solver, &self.watch);
-        let (method, steps) = (args.method, clock.steps as f64);
+        let (method, steps) = (chosen.method, clock.steps as f64);
         let account = &loaded.smallest.account;
         let iterations = solver.iterations as f64 / steps;
         let (every_steps, every_seconds) = match self.schedule {
@@ -324,7 +362,10 @@ impl<'a> Run<'a> {
             step_seconds: clock.step(),
             step_asked_seconds: clock.asked,
             step_is_adjusted: clock.is_adjusted(),
-            step_is_default: args.step.is_none(),
+            step_is_default: args.step.is_none() && chosen.pilot.is_none(),
+            accuracy_asked: args.accuracy,
+            accuracy_estimate: chosen.pilot.map(|pilot| pilot.estimate),
+            accuracy_horizon_seconds: chosen.pilot.map(|pilot| pilot.horizon),
             until_seconds: clock.until,
             time_per_step_us: solver.time.as_secs_f64() * 1e6 / steps,
             sample_every_steps: every_steps,
@@ -358,6 +399,16 @@ impl<'a> Run<'a> {
             None => Ok(()),
         }
     }
+}
+
+/// A spinner on a terminal's stderr, and none elsewhere.
+fn waiting(what: &'static str) -> ProgressBar {
+    if !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let spinner = ProgressBar::new_spinner().with_message(what);
+    spinner.enable_steady_tick(Duration::from_millis(100));
+    spinner.with_finish(ProgressFinish::AndClear)
 }
 
 /// A bar on a terminal's stderr, and none elsewhere; it goes when it is dropped.

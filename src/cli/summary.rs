@@ -23,6 +23,10 @@ pub struct Summary {
     pub step_seconds: f64,
     pub step_asked_seconds: f64,
     pub until_seconds: f64,
+    /// Radians and metres, as the estimate, which compares with shorter steps over the horizon.
+    pub accuracy_asked: Option<f64>,
+    pub accuracy_estimate: Option<f64>,
+    pub accuracy_horizon_seconds: Option<f64>,
     pub time_per_step_us: f64,
     pub sample_every_steps: Option<u64>,
     pub sample_every_seconds: Option<f64>,
@@ -95,10 +99,23 @@ impl Summary {
             ("time per step", format!("{:.3} us", self.time_per_step_us)),
             ("samples", self.samples()),
         ]);
+        if let Some(accuracy) = self.accuracy() {
+            rows.push(("accuracy", accuracy));
+        }
         if let Some(path) = &self.csv {
             rows.push(("CSV", one_line(path)));
         }
         rows
+    }
+
+    /// What was asked for, and how far runs of shorter steps were away.
+    fn accuracy(&self) -> Option<String> {
+        let asked = self.accuracy_asked?;
+        let (estimate, horizon) = (self.accuracy_estimate?, self.accuracy_horizon_seconds?);
+        Some(format!(
+            "{asked:e} asked for; estimated error {estimate:.1e} rad or m over {} s, against shorter steps",
+            decimal(horizon)
+        ))
     }
 
     fn quality(&self) -> Vec<(&'static str, String)> {
@@ -195,6 +212,9 @@ impl Summary {
         let asked = decimal(self.step_asked_seconds);
         let until = decimal(self.until_seconds);
         let instead = match (self.step_is_adjusted, self.step_is_default) {
+            _ if self.accuracy_asked.is_some() => {
+                return format!("{step} s, chosen for the accuracy");
+            }
             (false, true) => return format!("{step} s, the method's default"),
             (false, false) => return format!("{step} s"),
             (true, true) => format!("the default {asked} s"),

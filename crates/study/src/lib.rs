@@ -13,6 +13,7 @@
 //! * [`figure`] — grids of line charts, written as SVG and PNG without any
 //!   font of the system.
 
+pub mod accuracy;
 pub mod baseline;
 pub mod dop853;
 pub mod figure;

@@ -36,6 +36,9 @@ use work::{Stepper, stepper};
 /// The chart is centred anew at every $g_k$. That $P$, and not $\mu_k$, goes with it is what keeps the symplectic form: the
 /// base point moves with the state, and its derivative is part of the balance.
 ///
+/// The stages of a sweep are evaluated side by side, in the widest SIMD [lanes](lie::lanes) that the processor has, where the system
+/// [allows it](ContinuousSystem::INLINE). The integrator owns its system, which borrows nothing: clone it, or share it.
+///
 /// The stages are iterated to rounding, unless a [tolerance](Self::with_tolerance) is set: all of them in one sweep, starting from the velocities and forces of
 /// the step before. A step too long for that is solved by Newton's method. Momenta are summed in the frame of the
 /// identity with compensation (but where $x \times p$ outweighs the rest, far from the origin), and so are the numbers of the configuration. After the first step none allocates, but for the first that needs Newton's method.

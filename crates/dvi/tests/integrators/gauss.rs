@@ -10,13 +10,13 @@ use crate::common::{self, Brake, Driven, Sinking, Top, driven, sinking, top};
 
 const VERTICAL: LeftTranslation<Tangent<3>> = LeftTranslation(Tangent([0.0, 0.0, 1.0]));
 
-fn order<L: Lagrangian, const S: usize, R: Retraction>(
+fn order<L: Lagrangian + Copy + 'static, const S: usize, R: Retraction>(
     lagrangian: &L,
     state: &State<L::Group>,
     steps: &[u32],
     tolerance: f64,
 ) {
-    let integrator = || Gauss::<_, S>::new(lagrangian.hamiltonian()).with_retraction::<R>();
+    let integrator = || Gauss::<_, S>::new((*lagrangian).hamiltonian()).with_retraction::<R>();
     let order = laws::observed_order(integrator, state, 2.0, steps).unwrap();
     println!(
         "{} stages, {}: order {:.3} {:?}",
@@ -54,8 +54,11 @@ orders! {
     orders_of_a_driven_particle: Driven, driven(), [10, 12, 14], 0.3;
 }
 
-fn laws_of<L: Lagrangian, const S: usize, R: Retraction>(lagrangian: &L, state: &State<L::Group>) {
-    let mut integrator = Gauss::<_, S>::new(lagrangian.hamiltonian()).with_retraction::<R>();
+fn laws_of<L: Lagrangian + Copy + 'static, const S: usize, R: Retraction>(
+    lagrangian: &L,
+    state: &State<L::Group>,
+) {
+    let mut integrator = Gauss::<_, S>::new((*lagrangian).hamiltonian()).with_retraction::<R>();
     for h in [0.1, -0.3] {
         let defect = laws::symplectic_defect(&mut integrator, state, h).unwrap();
         println!("{S} stages, {}, h = {h}: defect {defect:.1e}", R::NAME);
