@@ -296,7 +296,9 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
         interval: f64,
         tolerance: f64,
     ) -> Result<Samples<C::Group>, StepError> {
-        let mut integrator = Gauss::<_, S>::new(self.system.clone()).with_tolerance(tolerance);
+        let mut integrator = Gauss::<_, S>::new(self.system.clone())
+            .with_tolerance(tolerance)
+            .by_sweeps_only();
         let mut state = self.start.clone();
         let (h, mut sweeps) = (interval / steps as f64, 0);
         let mut states = Vec::with_capacity(SAMPLES);

@@ -17,7 +17,7 @@ use lie::{Cayley, LieGroup, Retraction, VectorSpace};
 use crate::{
     ContinuousSystem, FirstVariation, Integrator, State, StepError, StepReport, Variation,
 };
-use solve::Failure;
+use solve::{Failure, Limits};
 use tableau::Tableau;
 use work::{Stepper, stepper};
 
@@ -69,7 +69,7 @@ use work::{Stepper, stepper};
 pub struct Gauss<C: ContinuousSystem, const S: usize, R = Cayley> {
     system: C,
     tableau: &'static Tableau,
-    tolerance: f64,
+    limits: Limits,
     instructions: InstructionSet,
     steps: u64,
     work: Option<Box<dyn Stepper<C>>>,
@@ -83,7 +83,10 @@ impl<C: ContinuousSystem + 'static, const S: usize> Gauss<C, S> {
         Self {
             system,
             tableau: Tableau::gauss(S),
-            tolerance: 0.0,
+            limits: Limits {
+                tolerance: 0.0,
+                sweeps_only: false,
+            },
             instructions: InstructionSet::widest(S),
             steps: 0,
             work: None,
@@ -98,7 +101,7 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R
         Gauss {
             system: self.system,
             tableau: self.tableau,
-            tolerance: self.tolerance,
+            limits: self.limits,
             instructions: self.instructions,
             steps: self.steps,
             work: None,
@@ -111,7 +114,13 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R
     /// Momentum maps of left translations, and of cyclic coordinates, do not feel it; those of other symmetries and the energy do, where it
     /// is looser than the method's own error of a step.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
-        self.tolerance = tolerance;
+        self.limits.tolerance = tolerance;
+        self
+    }
+
+    /// The same without Newton's method: a step too long for the plain iteration is refused at once.
+    pub(crate) fn by_sweeps_only(mut self) -> Self {
+        self.limits.sweeps_only = true;
         self
     }
 
@@ -166,7 +175,7 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R
                 found,
             });
         }
-        let solved = work.solve((system, tableau), (state, h), self.tolerance);
+        let solved = work.solve((system, tableau), (state, h), self.limits);
         let report = solved.map_err(|failure| match failure {
             Failure::NotFinite => StepError::NotFinite { step, t, h },
             Failure::NotConverged(report, hint) => StepError::NotConverged {

@@ -37,6 +37,15 @@ pub(super) enum Failure {
     NotConverged(StepReport, Hint),
 }
 
+/// How far a step is solved, and by what.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// See [`Gauss::with_tolerance`](super::Gauss::with_tolerance).
+    pub(super) tolerance: f64,
+    /// Refuses a step that the plain iteration does not solve: such steps do not pay.
+    pub(super) sweeps_only: bool,
+}
+
 /// How an iteration ended.
 enum Ended {
     Solved(StepReport),
@@ -61,8 +70,18 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         &mut self,
         method: Method<C>,
         start: Start<C>,
-        tolerance: f64,
+        limits: Limits,
     ) -> Result<StepReport, Failure> {
+        if limits.sweeps_only {
+            return match self.iterate::<R>(method, start, limits.tolerance)? {
+                Ended::Solved(report) => Ok(report),
+                Ended::Slow(report) => Err(Failure::NotConverged(
+                    report,
+                    Hint::SmallerStep { h: 0.5 * start.1 },
+                )),
+            };
+        }
+        let tolerance = limits.tolerance;
         let (report, starts) = match self.attempt::<R>(method, start, tolerance)? {
             Ended::Solved(report) => return Ok(report),
             Ended::Slow(report) => (report, self.predictor.is_known()),

@@ -7,7 +7,7 @@ use lie::{Batch, LieGroup, Retraction, VectorSpace};
 
 use super::newton::SweepNewton;
 use super::predictor::Predictor;
-use super::solve::{Failure, Method, Start};
+use super::solve::{Failure, Limits, Method, Start};
 use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use super::update::Update;
@@ -61,7 +61,7 @@ pub(super) trait Stepper<C: ContinuousSystem>: Send + Sync {
         &mut self,
         method: Method<C>,
         start: Start<C>,
-        tolerance: f64,
+        limits: Limits,
     ) -> Result<StepReport, Failure>;
 
     /// The state after the step that was solved.
@@ -93,9 +93,9 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
         &mut self,
         method: Method<C>,
         start: Start<C>,
-        tolerance: f64,
+        limits: Limits,
     ) -> Result<StepReport, Failure> {
-        self.work.solve::<R>(method, start, tolerance)
+        self.work.solve::<R>(method, start, limits)
     }
 
     fn ahead(&self, (state, h): Start<C>) -> State<C::Group> {
