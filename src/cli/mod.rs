@@ -9,7 +9,6 @@ mod methods;
 mod output;
 mod print;
 mod run;
-mod sample;
 mod scene;
 mod schedule;
 mod summary;

@@ -9,6 +9,7 @@ use articulated_fluid::{ArticulatedBody, Configuration, SmallestModel, scene};
 use dvi::{Integrator, State, StepReport};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 use study::methods::Method;
+use study::watch::{Sample, Watch};
 
 use super::args;
 use super::clock::Clock;
@@ -16,7 +17,7 @@ use super::error::CliError;
 use super::interrupt::Interrupt;
 use super::output::{Output, OutputError};
 use super::print;
-use super::sample::{Sample, Watch};
+
 use super::scene::{Loaded, load};
 use super::schedule::{Due, Schedule};
 use super::summary::Summary;

@@ -20,3 +20,4 @@ pub mod on_group;
 pub mod problems;
 pub mod raw;
 pub mod survey;
+pub mod watch;
