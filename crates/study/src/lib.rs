@@ -14,6 +14,8 @@
 //!   font of the system.
 
 pub mod baseline;
+pub mod contender;
+pub mod explicit;
 pub mod figure;
 pub mod methods;
 pub mod on_group;

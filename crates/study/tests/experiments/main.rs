@@ -2,6 +2,8 @@
 //! compiled once.
 
 mod baseline;
+mod common;
+mod contenders;
 mod figure;
 mod methods;
 mod problems;
