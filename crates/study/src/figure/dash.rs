@@ -10,7 +10,7 @@ const WINDING: f64 = 2.5;
 /// Lengths of dash and gap, in pixels.
 fn pattern(style: Style) -> Option<(f64, f64)> {
     match style {
-        Style::Solid => None,
+        Style::Solid | Style::Invisible => None,
         Style::Dashed => Some((9.0, 5.5)),
         Style::Dotted => Some((2.2, 4.0)),
     }
@@ -18,6 +18,9 @@ fn pattern(style: Style) -> Option<(f64, f64)> {
 
 /// The strokes that show a path in a style.
 pub(super) fn dash(path: Vec<Pixel>, style: Style) -> Vec<Vec<Pixel>> {
+    if style == Style::Invisible {
+        return vec![];
+    }
     let Some((on, off)) = pattern(style) else {
         return vec![path];
     };

@@ -5,15 +5,18 @@ use plotters::style::RGBColor;
 use plotters::style::text_anchor::HPos;
 
 use super::dash::dash;
+use super::ends::ends;
 use super::layout::{Cell, EDGE, LABEL, Layout, PANEL_TITLE, TICK, TICK_GAP, TITLE};
 use super::legend::{Entry, SAMPLE};
+use super::mark::{Shape, shape};
 use super::surface::{Surface, Text};
 use super::thin::{Pixel, thin};
-use super::{Colour, Figure, FigureError, Line, Panel, font};
+use super::{Colour, Figure, FigureError, Labels, Level, Line, Marker, Panel, Style, font};
 
 const PAPER: RGBColor = RGBColor(255, 255, 255);
 const INK: RGBColor = RGBColor(26, 26, 26);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
+const LEADER: RGBColor = RGBColor(170, 170, 170);
 const RULE: RGBColor = RGBColor(229, 229, 229);
 
 /// Widths of strokes.
@@ -40,12 +43,21 @@ pub(super) fn draw<B: DrawingBackend>(
     }
     for (panel, cell) in figure.panels.iter().zip(&layout.cells) {
         rules(on, cell)?;
+        for level in &panel.levels {
+            level_line(on, cell, level)?;
+        }
+        if figure.labels == Labels::Ends {
+            end_labels(on, panel, cell)?;
+        }
         for line in &panel.lines {
             curve(on, cell, line)?;
         }
         frame(on, cell)?;
         tick_labels(on, cell)?;
         names(on, panel, cell)?;
+    }
+    for (y, note) in &layout.notes {
+        small(on, note, (EDGE, *y), HPos::Left)?;
     }
     Ok(())
 }
@@ -88,6 +100,59 @@ fn curve<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, line: &Line) -> Do
     for stroke in dash(thin(points), line.style) {
         on.stroke(&stroke, colour(line.colour), CURVE)?;
     }
+    match line.marker {
+        Some(marker) => marks(on, cell, line, marker),
+        None => Ok(()),
+    }
+}
+
+fn marks<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, line: &Line, marker: Marker) -> Done {
+    for at in line.points.iter().filter_map(|p| cell.pixel(*p)) {
+        match shape(marker, at) {
+            Shape::Filled(corners) => on.polygon(&corners, colour(line.colour))?,
+            Shape::Strokes(strokes) => {
+                for stroke in strokes {
+                    on.stroke(&stroke, colour(line.colour), CURVE)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn level_line<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, level: &Level) -> Done {
+    let Some(y) = cell.y.place(level.y) else {
+        return Ok(());
+    };
+    let plot = &cell.plot;
+    let y = plot.bottom() - y * plot.height;
+    for stroke in dash(vec![(plot.left, y), (plot.right(), y)], Style::Dashed) {
+        on.stroke(&stroke, FRAME, CURVE)?;
+    }
+    let (text, size) = font::fit(&level.label, TICK, plot.width - 2.0 * TICK_GAP)?;
+    on.text(&Text {
+        text: &text,
+        at: (plot.left + TICK_GAP, y - TICK),
+        size,
+        align: HPos::Left,
+        upright: false,
+        colour: INK,
+    })
+}
+
+/// Below the curves, so that a leader hides nothing.
+fn end_labels<B: DrawingBackend>(on: &mut Surface<B>, panel: &Panel, cell: &Cell) -> Done {
+    for end in ends(panel, cell) {
+        on.stroke(&end.leader, LEADER, THIN)?;
+        on.text(&Text {
+            text: &end.line.label,
+            at: end.at,
+            size: TICK,
+            align: HPos::Left,
+            upright: false,
+            colour: colour(end.line.colour),
+        })?;
+    }
     Ok(())
 }
 
@@ -105,6 +170,10 @@ fn frame<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell) -> Done {
     for tick in &cell.x.major {
         let x = left + tick.at * plot.width;
         on.stroke(&[(x, bottom), (x, bottom + TICK_LENGTH)], FRAME, THIN)?;
+    }
+    for at in &cell.x.minor {
+        let x = left + at * plot.width;
+        on.stroke(&[(x, bottom), (x, bottom + MINOR_LENGTH)], FRAME, THIN)?;
     }
     let majors = cell.y.major.iter().map(|t| (t.at, TICK_LENGTH));
     let minors = cell.y.minor.iter().map(|at| (*at, MINOR_LENGTH));
