@@ -148,7 +148,7 @@ pub struct Line {
 /// A named height across a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Level {
-    /// Printed above its left end.
+    /// Printed at its right end where lines are named at their [`Ends`](Labels::Ends), nowhere else.
     pub label: String,
     /// In the unit of the axis.
     pub y: f64,

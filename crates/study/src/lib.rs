@@ -23,3 +23,4 @@ pub mod problems;
 pub mod raw;
 pub mod survey;
 pub mod watch;
+pub mod work_precision;

@@ -6,7 +6,7 @@ use plotters::style::text_anchor::HPos;
 
 use super::dash::dash;
 use super::ends::ends;
-use super::layout::{Cell, EDGE, LABEL, Layout, PANEL_TITLE, TICK, TICK_GAP, TITLE};
+use super::layout::{Cell, EDGE, LABEL, Layout, NOTE, PANEL_TITLE, TICK, TICK_GAP, TITLE};
 use super::legend::{Entry, SAMPLE};
 use super::mark::{Shape, shape};
 use super::surface::{Surface, Text};
@@ -57,7 +57,14 @@ pub(super) fn draw<B: DrawingBackend>(
         names(on, panel, cell)?;
     }
     for (y, note) in &layout.notes {
-        small(on, note, (EDGE, *y), HPos::Left)?;
+        on.text(&Text {
+            text: note,
+            at: (EDGE, *y),
+            size: NOTE,
+            align: HPos::Left,
+            upright: false,
+            colour: INK,
+        })?;
     }
     Ok(())
 }
@@ -121,23 +128,14 @@ fn marks<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, line: &Line, marke
 }
 
 fn level_line<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, level: &Level) -> Done {
-    let Some(y) = cell.y.place(level.y) else {
+    let Some(y) = cell.height(level.y) else {
         return Ok(());
     };
-    let plot = &cell.plot;
-    let y = plot.bottom() - y * plot.height;
-    for stroke in dash(vec![(plot.left, y), (plot.right(), y)], Style::Dashed) {
-        on.stroke(&stroke, FRAME, CURVE)?;
+    let path = vec![(cell.plot.left, y), (cell.plot.right(), y)];
+    for stroke in dash(path, Style::Dashed) {
+        on.stroke(&stroke, FRAME, THIN)?;
     }
-    let (text, size) = font::fit(&level.label, TICK, plot.width - 2.0 * TICK_GAP)?;
-    on.text(&Text {
-        text: &text,
-        at: (plot.left + TICK_GAP, y - TICK),
-        size,
-        align: HPos::Left,
-        upright: false,
-        colour: INK,
-    })
+    Ok(())
 }
 
 /// Below the curves, so that a leader hides nothing.
@@ -145,12 +143,12 @@ fn end_labels<B: DrawingBackend>(on: &mut Surface<B>, panel: &Panel, cell: &Cell
     for end in ends(panel, cell) {
         on.stroke(&end.leader, LEADER, THIN)?;
         on.text(&Text {
-            text: &end.line.label,
+            text: end.label,
             at: end.at,
             size: TICK,
             align: HPos::Left,
             upright: false,
-            colour: colour(end.line.colour),
+            colour: end.colour.map_or(INK, colour),
         })?;
     }
     Ok(())

@@ -1,8 +1,8 @@
-//! Names beside a panel, each led to by the end of its line.
+//! Names beside a panel, each led to from the end of its line.
 
 use super::layout::{Cell, LABEL, TICK};
 use super::thin::Pixel;
-use super::{FigureError, Line, Panel, font};
+use super::{Colour, FigureError, Level, Line, Panel, font};
 
 /// Between the plot and the names: room for the leaders.
 const LEADER: f64 = 34.0;
@@ -11,38 +11,51 @@ const PITCH: f64 = 1.15 * TICK;
 
 /// A name, and the path that leads to it.
 pub(super) struct End<'a> {
-    pub(super) line: &'a Line,
+    pub(super) label: &'a str,
+    /// That of its line; a level has none.
+    pub(super) colour: Option<Colour>,
     pub(super) leader: [Pixel; 2],
     pub(super) at: Pixel,
 }
 
 /// What the names take beside the plots of a figure.
 pub(super) fn room<'a>(panels: impl Iterator<Item = &'a Panel>) -> Result<f64, FigureError> {
+    let labels = panels.flat_map(|panel| {
+        let levels = panel.levels.iter().map(|level| &level.label);
+        panel.lines.iter().map(|line| &line.label).chain(levels)
+    });
     let mut widest: f64 = 0.0;
-    for line in panels.flat_map(|panel| &panel.lines) {
-        widest = widest.max(font::width(&line.label, TICK)?);
+    for label in labels {
+        widest = widest.max(font::width(label, TICK)?);
     }
     Ok(LEADER + widest)
 }
 
-/// The names of a panel's lines, moved apart where they would overlap.
+/// The names of a panel's lines and levels, moved apart where they would overlap.
 pub(super) fn ends<'a>(panel: &'a Panel, cell: &Cell) -> Vec<End<'a>> {
-    let named = panel.lines.iter().filter(|line| !line.label.is_empty());
-    let end = |line: &'a Line| {
-        let last = line.points.iter().rev().find_map(|p| cell.pixel(*p));
-        last.map(|end| (line, end))
+    let right = cell.plot.right();
+    let line = |line: &'a Line| {
+        let end = line.points.iter().rev().find_map(|p| cell.pixel(*p))?;
+        Some((line.label.as_str(), Some(line.colour), end))
     };
-    let mut ends: Vec<_> = named.filter_map(end).collect();
+    let level = |level: &'a Level| {
+        let end = (right, cell.height(level.y)?);
+        Some((level.label.as_str(), None, end))
+    };
+    let lines = panel.lines.iter().filter_map(line);
+    let levels = panel.levels.iter().filter_map(level);
+    let named = lines.chain(levels).filter(|(label, ..)| !label.is_empty());
+    let mut ends: Vec<_> = named.collect();
     // Of lines that end at one height, the leader of the left one passes above the end of the right one.
-    ends.sort_by(|(_, a), (_, b)| {
+    ends.sort_by(|(_, _, a), (_, _, b)| {
         let row = |y: f64| (y / PITCH).round();
         row(a.1).total_cmp(&row(b.1)).then(a.0.total_cmp(&b.0))
     });
     let bottom = cell.plot.bottom() + LABEL / 2.0;
-    let heights = spread(ends.iter().map(|(_, end)| end.1).collect(), bottom);
-    let right = cell.plot.right();
-    let label = |((line, end), y): ((&'a Line, Pixel), f64)| End {
-        line,
+    let heights = spread(ends.iter().map(|(_, _, end)| end.1).collect(), bottom);
+    let label = |((label, colour, end), y)| End {
+        label,
+        colour,
         leader: [end, (right + LEADER - 5.0, y)],
         at: (right + LEADER, y),
     };

@@ -13,6 +13,8 @@ pub(super) const PANEL_TITLE: f64 = 18.0;
 pub(super) const LABEL: f64 = 16.5;
 pub(super) const TICK: f64 = 15.0;
 
+pub(super) const NOTE: f64 = 13.5;
+
 /// Between a tick and its label.
 pub(super) const TICK_GAP: f64 = 9.0;
 
@@ -27,7 +29,7 @@ const Y_LABEL_BAND: f64 = 32.0;
 /// Half a tick label may stand over the right end of a plot.
 const RIGHT: f64 = 22.0;
 /// Between the middle lines of notes.
-const NOTE_PITCH: f64 = 20.0;
+const NOTE_PITCH: f64 = 18.0;
 const X_TICKS: usize = 7;
 const Y_TICKS: usize = 6;
 const Y_MARGIN: f64 = 0.06;
@@ -152,7 +154,7 @@ fn notes(figure: &Figure, above: f64, room: f64) -> Result<Vec<(f64, String)>, F
     let mut notes = vec![];
     let mut y = above + TICK;
     for note in &figure.notes {
-        for line in font::wrap(note, TICK, room)? {
+        for line in font::wrap(note, NOTE, room)? {
             y += NOTE_PITCH;
             notes.push((y, line));
         }
@@ -205,10 +207,14 @@ impl Cell {
         }
     }
 
+    /// The vertical pixel of a value, if it can be placed.
+    pub(super) fn height(&self, y: f64) -> Option<f64> {
+        Some(self.plot.bottom() - self.y.place(y)? * self.plot.height)
+    }
+
     /// The pixel of a point, if it can be placed.
     pub(super) fn pixel(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
-        let (x, y) = (self.x.place(x)?, self.y.place(y)?);
-        let plot = &self.plot;
-        Some((plot.left + x * plot.width, plot.bottom() - y * plot.height))
+        let (x, y) = (self.x.place(x)?, self.height(y)?);
+        Some((self.plot.left + x * self.plot.width, y))
     }
 }

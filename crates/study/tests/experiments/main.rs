@@ -8,3 +8,4 @@ mod figure;
 mod methods;
 mod problems;
 mod systems;
+mod work_precision;
