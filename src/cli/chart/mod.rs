@@ -61,7 +61,7 @@ What is measured:
   evaluations  of the continuous model, for lgvi and composition of the discrete one; they do not depend on the machine
   setting      one counts as reaching an error only if all finer settings of its method do
 All methods step the same model, that of lgvi run --full without the translation. Where lgvi inspect finds a smaller one,
-lgvi run is faster than the chart says. A method's line ends at the reference's own error, or where a run takes half a second.
+lgvi run is faster than the chart says. A method's line ends at the reference's own error, or after two runs of more than half a second.
 
 Exit codes:
   0    done, even if single runs of the chart failed

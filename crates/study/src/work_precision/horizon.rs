@@ -14,7 +14,7 @@ const PERTURBATION: f64 = 1e-10;
 /// A difference in attitude that is still small, rad: its growth tells that of smaller ones.
 const GROWN: f64 = 1e-3;
 /// The growth is followed for at most so many times the run's length.
-const FURTHEST: f64 = 64.0;
+const FURTHEST: f64 = 16.0;
 /// Times at which it is looked at by the end of the run; beyond, the time grows by its share at each look.
 const LOOKS: u32 = 32;
 

@@ -77,6 +77,8 @@ pub struct Sweep<'a> {
     /// The smallest attitude error so far, rad, and how many settings have not halved it.
     best: f64,
     stalled: u32,
+    /// How many settings in a row have taken too long.
+    slow: u32,
 }
 
 impl<'a> Sweep<'a> {
@@ -101,6 +103,7 @@ impl<'a> Sweep<'a> {
             tried: 0,
             best: f64::INFINITY,
             stalled: 0,
+            slow: 0,
         }
     }
 
@@ -123,9 +126,11 @@ impl<'a> Sweep<'a> {
             self.stalled + 1
         };
         self.best = self.best.min(error);
+        let is_slow = measured.cost.time > self.timing.longest;
+        self.slow = if is_slow { self.slow + 1 } else { 0 };
         error <= NEAR * floor
             || (self.stalled >= 2 && error <= PLATEAU * floor)
-            || measured.cost.time > self.timing.longest
+            || self.slow >= 2
             || self.tried >= MOST
     }
 

@@ -11,7 +11,7 @@ pub struct Timing {
     pub runs: u32,
     /// No further run is begun after this time.
     pub within: Duration,
-    /// No finer setting is tried after a run that took longer.
+    /// No finer setting is tried after two in a row that took longer; a step too long for its solver may be slower than a shorter one.
     pub longest: Duration,
 }
 

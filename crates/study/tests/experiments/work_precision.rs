@@ -13,7 +13,7 @@ use crate::common::paper;
 fn curve(name: &str, problem: &Problem, reference: &Reference) -> Curve {
     let contender = name.parse().unwrap();
     let timing = Timing {
-        longest: Duration::from_millis(20),
+        longest: Duration::from_millis(50),
         ..Timing::ONCE
     };
     let points = Sweep::new(contender, problem, reference, timing).collect();
@@ -106,6 +106,8 @@ fn what_fails_is_on_the_chart_with_its_cause() {
     let table = csv(&curves, 4.0);
     let columns = |line: &str| line.split('"').next().unwrap().matches(',').count();
     assert!(table.lines().all(|line| columns(line) == 16), "{table}");
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let failures = points.filter(|point| point.outcome.is_err()).count();
     assert_eq!(table.matches("no solution for h").count(), failures);
 }
 
