@@ -114,17 +114,18 @@ fn curve<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, line: &Line) -> Do
 }
 
 fn marks<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, line: &Line, marker: Marker) -> Done {
-    for at in line.points.iter().filter_map(|p| cell.pixel(*p)) {
-        match shape(marker, at) {
-            Shape::Filled(corners) => on.polygon(&corners, colour(line.colour))?,
-            Shape::Strokes(strokes) => {
-                for stroke in strokes {
-                    on.stroke(&stroke, colour(line.colour), CURVE)?;
-                }
-            }
-        }
+    let mut points = line.points.iter().filter_map(|p| cell.pixel(*p));
+    points.try_for_each(|at| mark(on, at, line, marker))
+}
+
+fn mark<B: DrawingBackend>(on: &mut Surface<B>, at: Pixel, line: &Line, marker: Marker) -> Done {
+    let colour = colour(line.colour);
+    match shape(marker, at) {
+        Shape::Filled(corners) => on.polygon(&corners, colour),
+        Shape::Strokes(strokes) => strokes
+            .iter()
+            .try_for_each(|stroke| on.stroke(stroke, colour, CURVE)),
     }
-    Ok(())
 }
 
 fn level_line<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, level: &Level) -> Done {
@@ -148,8 +149,11 @@ fn end_labels<B: DrawingBackend>(on: &mut Surface<B>, panel: &Panel, cell: &Cell
             size: TICK,
             align: HPos::Left,
             upright: false,
-            colour: end.colour.map_or(INK, colour),
+            colour: end.line.map_or(INK, |line| colour(line.colour)),
         })?;
+        if let Some((line, marker)) = end.line.and_then(|line| Some((line, line.marker?))) {
+            mark(on, end.mark, line, marker)?;
+        }
     }
     Ok(())
 }

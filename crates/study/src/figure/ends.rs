@@ -2,18 +2,22 @@
 
 use super::layout::{Cell, LABEL, TICK};
 use super::thin::Pixel;
-use super::{Colour, FigureError, Level, Line, Panel, font};
+use super::{FigureError, Level, Line, Panel, font};
 
 /// Between the plot and the names: room for the leaders.
-const LEADER: f64 = 34.0;
+const LEADER: f64 = 46.0;
+/// Room for a marker before a name.
+const MARK: f64 = 18.0;
 /// Between the middle lines of two names.
 const PITCH: f64 = 1.15 * TICK;
 
 /// A name, and the path that leads to it.
 pub(super) struct End<'a> {
     pub(super) label: &'a str,
-    /// That of its line; a level has none.
-    pub(super) colour: Option<Colour>,
+    /// Of a line, not of a level.
+    pub(super) line: Option<&'a Line>,
+    /// Where its marker stands before the name.
+    pub(super) mark: Pixel,
     pub(super) leader: [Pixel; 2],
     pub(super) at: Pixel,
 }
@@ -36,7 +40,7 @@ pub(super) fn ends<'a>(panel: &'a Panel, cell: &Cell) -> Vec<End<'a>> {
     let right = cell.plot.right();
     let line = |line: &'a Line| {
         let end = line.points.iter().rev().find_map(|p| cell.pixel(*p))?;
-        Some((line.label.as_str(), Some(line.colour), end))
+        Some((line.label.as_str(), Some(line), end))
     };
     let level = |level: &'a Level| {
         let end = (right, cell.height(level.y)?);
@@ -53,10 +57,11 @@ pub(super) fn ends<'a>(panel: &'a Panel, cell: &Cell) -> Vec<End<'a>> {
     });
     let bottom = cell.plot.bottom() + LABEL / 2.0;
     let heights = spread(ends.iter().map(|(_, _, end)| end.1).collect(), bottom);
-    let label = |((label, colour, end), y)| End {
+    let label = |((label, line, end), y)| End {
         label,
-        colour,
-        leader: [end, (right + LEADER - 5.0, y)],
+        line,
+        leader: [end, (right + LEADER - MARK, y)],
+        mark: (right + LEADER - MARK / 2.0, y),
         at: (right + LEADER, y),
     };
     ends.into_iter().zip(heights).map(label).collect()

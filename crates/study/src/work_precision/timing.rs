@@ -16,17 +16,18 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// 20 runs or 2 s.
-    pub const BEST_OF_20: Self = Self {
-        runs: 20,
-        within: Duration::from_secs(2),
+    /// 10 runs or 1 s: for a sweep, and once more [later](super::Curve::time_again), since what disturbs a short run disturbs its
+    /// neighbours.
+    pub const BEST_OF_10: Self = Self {
+        runs: 10,
+        within: Duration::from_secs(1),
         longest: Duration::from_millis(500),
     };
 
     /// One run: for counts, which do not vary.
     pub const ONCE: Self = Self {
         runs: 1,
-        ..Self::BEST_OF_20
+        ..Self::BEST_OF_10
     };
 
     /// The cost of a run with its least time, and the number of runs.
