@@ -8,9 +8,14 @@
 //! * [`methods`] — the integrators of the fish chain's model, by name;
 //! * [`baseline`] — the non-geometric competitor: adaptive explicit
 //!   Runge–Kutta, also good as a tight-tolerance reference solution;
+//! * [`explicit`] — Runge–Kutta methods of a fixed step, on the group and on
+//!   raw matrices;
+//! * [`contender`] — methods and baselines under one name each, run in one way;
+//! * [`work_precision`] — what each of them costs for which error;
+//! * [`watch`] — how far a run strays from what the motion keeps;
 //! * [`survey`] — order, energy, momentum maps and symplecticity of any method
 //!   on a test problem, and methods that are wrong on purpose;
-//! * [`figure`] — grids of line charts, written as SVG and PNG without any
+//! * [`figure`] — grids of charts, written as SVG and PNG without any
 //!   font of the system.
 
 pub mod baseline;

@@ -1,4 +1,4 @@
-//! Work against precision: what each [`Contender`] costs for which error, on a scene of one's own.
+//! Work against precision: what each [`Contender`](crate::contender::Contender) costs for which error, on a scene of one's own.
 //!
 //! A [`Sweep`] runs one contender from long steps, or loose tolerances, to short ones. Errors are the largest over the run at
 //! [`SAMPLES`] times, never the endpoint's, against a [`Reference`] that two methods have found independently; where these differ is the
@@ -36,9 +36,6 @@ pub use reference::{Reference, UnknownReference};
 pub use sweep::{Curve, Measured, Point, Sweep};
 pub use table::csv;
 pub use timing::Timing;
-
-#[allow(unused_imports, reason = "named in the documentation")]
-use crate::contender::Contender;
 
 /// Intervals between the times at which a run is looked at.
 pub const SAMPLES: u64 = 200;

@@ -101,7 +101,7 @@ impl<'a> Report<'a> {
 
     fn row(&self, row: &Row) -> [String; 9] {
         let choice = |choice: &Option<Choice>| match choice {
-            None => ["none", "", "", ""].map(str::to_owned),
+            None => ["not reached", "", "", ""].map(str::to_owned),
             Some(choice) => [
                 choice.contender.to_string(),
                 self.setting(choice),

@@ -1,7 +1,7 @@
 //! The points as a chart.
 
 use super::{Curve, Measured, Point, Reference};
-use crate::contender::{Contender, Kind, Problem};
+use crate::contender::{Contender, Control, Kind, Problem};
 use crate::figure::{Colour, Figure, Labels, Level, Line, Marker, Panel, Scale, Style};
 
 /// Where failed runs are drawn, above the largest attitude error there is.
@@ -23,74 +23,55 @@ would have put them.";
 /// A quantity of a measured run.
 type Quantity = fn(&Measured) -> Option<f64>;
 
-fn seconds(measured: &Measured) -> Option<f64> {
-    Some(measured.cost.time.as_secs_f64())
+#[derive(Clone, Copy)]
+struct Axis {
+    label: &'static str,
+    quantity: Quantity,
 }
 
-fn evaluations(measured: &Measured) -> Option<f64> {
-    Some(measured.cost.evaluations as f64)
-}
+const TIME: Axis = Axis {
+    label: "time of stepping [s]",
+    quantity: |measured| Some(measured.cost.time.as_secs_f64()),
+};
+const EVALUATIONS: Axis = Axis {
+    label: "evaluations of the model (lgvi, composition: of the discrete one)",
+    quantity: |measured| Some(measured.cost.evaluations as f64),
+};
+const ATTITUDE: Axis = Axis {
+    label: "largest attitude error [rad]",
+    quantity: |measured| Some(measured.errors.attitude),
+};
+const ENERGY: Axis = Axis {
+    label: "largest energy error, relative",
+    quantity: |measured| measured.errors.energy,
+};
 
 /// Attitude error against time and against evaluations, energy error against time.
 ///
 /// A method's failed runs stand on a line above all errors, at the cost in proportion to their steps; the notes have their causes.
 pub fn picture(curves: &[Curve], problem: &Problem, reference: &Reference, title: &str) -> Figure {
     let chart = Chart { curves, problem };
-    let attitude: Quantity = |measured| Some(measured.errors.attitude);
-    let energy: Quantity = |measured| measured.errors.energy;
-    let floor = Level {
-        label: "unknown below".to_owned(),
-        y: reference.attitude,
-    };
-    let panel =
-        |(title, y): (&str, &str), (x_label, x): (&str, Quantity), quantity, failed, floor| {
-            let failures = Level {
-                label: "failed".to_owned(),
-                y: failed,
-            };
-            Panel {
-                title: title.to_owned(),
-                x_label: x_label.to_owned(),
-                x_scale: Scale::Log,
-                y_label: y.to_owned(),
-                y_scale: Scale::Log,
-                levels: core::iter::once(failures).chain(floor).collect(),
-                lines: chart.lines((x, quantity), failed),
-            }
-        };
-    let time = ("time of stepping [s]", seconds as Quantity);
-    let angle = "largest attitude error [rad]";
-    let worst = chart.largest(energy).max(1e-3);
+    let floor = Some(reference.attitude);
+    let failed_energy = 10.0 * chart.largest(ENERGY.quantity).max(1e-3);
     Figure {
         title: title.to_owned(),
         columns: 1,
         labels: Labels::Ends,
         plot_height: PLOT_HEIGHT,
         panels: vec![
-            panel(
-                ("(a) accuracy and time", angle),
-                time,
-                attitude,
+            chart.panel(
+                "(a) accuracy and time",
+                [TIME, ATTITUDE],
                 FAILED_ATTITUDE,
-                Some(floor.clone()),
+                floor,
             ),
-            panel(
-                ("(b) accuracy and evaluations", angle),
-                (
-                    "evaluations of the model (lgvi, composition: of the discrete one)",
-                    evaluations,
-                ),
-                attitude,
+            chart.panel(
+                "(b) accuracy and evaluations",
+                [EVALUATIONS, ATTITUDE],
                 FAILED_ATTITUDE,
-                Some(floor),
+                floor,
             ),
-            panel(
-                ("(c) energy and time", "largest energy error, relative"),
-                time,
-                energy,
-                10.0 * worst,
-                None,
-            ),
+            chart.panel("(c) energy and time", [TIME, ENERGY], failed_energy, None),
         ],
         notes: chart.notes(reference),
     }
@@ -102,6 +83,25 @@ struct Chart<'a> {
 }
 
 impl Chart<'_> {
+    fn panel(&self, title: &str, [x, y]: [Axis; 2], failed: f64, floor: Option<f64>) -> Panel {
+        let level = |label: &str, y| Level {
+            label: label.to_owned(),
+            y,
+        };
+        let floor = floor.map(|error| level("unknown below", error));
+        Panel {
+            title: title.to_owned(),
+            x_label: x.label.to_owned(),
+            x_scale: Scale::Log,
+            y_label: y.label.to_owned(),
+            y_scale: Scale::Log,
+            levels: core::iter::once(level("failed", failed))
+                .chain(floor)
+                .collect(),
+            lines: self.lines((x.quantity, y.quantity), failed),
+        }
+    }
+
     fn largest(&self, quantity: Quantity) -> f64 {
         let points = self.curves.iter().flat_map(|curve| &curve.points);
         let values = points.filter_map(|point| quantity(point.outcome.as_ref().ok()?));
@@ -135,12 +135,16 @@ impl Chart<'_> {
         let points = curve.points.iter().enumerate();
         let crosses: Vec<_> = points
             .filter(|(_, point)| point.outcome.is_err())
-            .filter_map(|(k, _)| Some((self.expected(curve, k, x)?, failed)))
+            .map(|(k, _)| (self.expected(curve, k, x), failed))
             .collect();
-        let bridge = match (crosses.last(), reached.first()) {
-            (Some(&cross), Some(&first)) => vec![cross, first],
-            _ => vec![],
-        };
+        let coarse = curve
+            .points
+            .iter()
+            .take_while(|point| point.outcome.is_err());
+        let last = coarse.count().checked_sub(1).map(|k| crosses[k]);
+        let bridge = last
+            .zip(reached.first())
+            .map(|(cross, first)| vec![cross, *first]);
         let line = |label: &str, style, marker, points| Line {
             label: label.to_owned(),
             colour: colour(curve.contender),
@@ -149,28 +153,34 @@ impl Chart<'_> {
             points,
         };
         let cross = Some(Marker::Cross);
+        // Where nothing was reached, what failed has the name.
+        let name = curve.contender.name();
+        let of_failed = if reached.is_empty() { name } else { "" };
         [
-            line("", Style::Dotted, None, bridge),
-            line("", Style::Invisible, cross, crosses),
-            line(
-                curve.contender.name(),
-                style(curve.contender),
-                Some(marker),
-                reached,
-            ),
+            line("", Style::Dotted, None, bridge.unwrap_or_default()),
+            line(of_failed, Style::Invisible, cross, crosses),
+            line(name, style(curve.contender), Some(marker), reached),
         ]
     }
 
-    /// What a failed run would have cost, from the nearest one that did not fail; as the least of all where there is none.
-    fn expected(&self, curve: &Curve, k: usize, x: Quantity) -> Option<f64> {
-        let size = |point: &Point| point.setting.value(self.problem.until);
+    /// What a failed run would have cost, from the nearest one that did not fail; as the least of all where there is none, or one.
+    fn expected(&self, curve: &Curve, k: usize, x: Quantity) -> f64 {
+        let size = |point: &Point| {
+            let value = point.setting.value(self.problem.until);
+            match point.setting.control() {
+                Control::Step => value,
+                // Steps are in proportion to this power.
+                Control::Tolerance => value.powf(1.0 / f64::from(curve.contender.order())),
+            }
+        };
         let cost = |(i, point): (usize, &Point)| {
             let cost = x(point.outcome.as_ref().ok()?)?;
             Some((i.abs_diff(k), cost * size(point) / size(&curve.points[k])))
         };
         let costs = curve.points.iter().enumerate().filter_map(cost);
         let nearest = costs.min_by_key(|(distance, _)| *distance);
-        nearest.map(|(_, cost)| cost).or_else(|| self.least(x))
+        let cost = nearest.map(|(_, cost)| cost);
+        cost.or_else(|| self.least(x)).unwrap_or(1.0)
     }
 
     fn least(&self, x: Quantity) -> Option<f64> {

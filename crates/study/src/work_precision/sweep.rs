@@ -1,5 +1,7 @@
 //! One contender, from coarse to fine.
 
+use std::time::{Duration, Instant};
+
 use super::{Errors, Reference, SAMPLES, Timing};
 use crate::contender::{Contender, Control, Cost, Failure, Problem, Setting};
 
@@ -55,7 +57,7 @@ impl Curve {
         let (value, cause) = failures.last()?;
         let (name, count) = (self.contender, failures.len());
         let setting = match self.contender.control() {
-            Control::Step => format!("h = {value:.3} s"),
+            Control::Step => format!("h = {} s", three_digits(*value)),
             Control::Tolerance => format!("tolerance {value:e}"),
         };
         let settings = if count == 1 { "setting" } else { "settings" };
@@ -63,9 +65,7 @@ impl Curve {
         let cause = cause.split("; ").next().unwrap_or(cause);
         Some(format!("{name}, {count} {settings} to {setting}: {cause}"))
     }
-}
 
-impl Curve {
     /// Times all points once more, and keeps the least; `heed` is called before each, and its error ends it.
     ///
     /// # Errors
@@ -89,7 +89,8 @@ impl Curve {
     }
 }
 
-/// Runs one setting after the other, about a decade of error apart: it ends at the reference's own error, or where a run takes too long.
+/// Runs one setting after the other, about a decade of error apart: it ends at the reference's own error, or where two in a row take too
+/// long.
 #[derive(Clone, Debug)]
 pub struct Sweep<'a> {
     contender: Contender,
@@ -139,9 +140,21 @@ impl<'a> Sweep<'a> {
         Ok(Measured { cost, runs, errors })
     }
 
-    fn is_last(&mut self, outcome: &Result<Measured, Failure>) -> bool {
+    fn is_last(&mut self, outcome: &Result<Measured, Failure>, elapsed: Duration) -> bool {
+        // Of a run that failed, late perhaps, only the whole time is known.
+        let time = outcome
+            .as_ref()
+            .map_or(elapsed, |measured| measured.cost.time);
+        self.slow = if time > self.timing.longest {
+            self.slow + 1
+        } else {
+            0
+        };
+        if self.slow >= 2 || self.tried >= MOST {
+            return true;
+        }
         let Ok(measured) = outcome else {
-            return self.tried >= MOST;
+            return false;
         };
         let (error, floor) = (measured.errors.attitude, self.reference.attitude);
         self.stalled = if error < 0.5 * self.best {
@@ -150,12 +163,7 @@ impl<'a> Sweep<'a> {
             self.stalled + 1
         };
         self.best = self.best.min(error);
-        let is_slow = measured.cost.time > self.timing.longest;
-        self.slow = if is_slow { self.slow + 1 } else { 0 };
-        error <= NEAR * floor
-            || (self.stalled >= 2 && error <= PLATEAU * floor)
-            || self.slow >= 2
-            || self.tried >= MOST
+        error <= NEAR * floor || (self.stalled >= 2 && error <= PLATEAU * floor)
     }
 
     /// The next finer setting: by the order, errors fall by ten, but no step by more than two.
@@ -166,7 +174,7 @@ impl<'a> Sweep<'a> {
                     .powf(1.0 / f64::from(self.contender.order()))
                     .min(2.0);
                 let finer = (steps as f64 * ratio).round() as u64;
-                Some(Setting::Steps(finer.max(steps + 1)))
+                Some(Setting::Steps(finer.max(steps.saturating_add(1))))
             }
             Setting::Tolerance(tolerance) => {
                 let exponent = -tolerance.log10().round() as i32 + 1;
@@ -175,6 +183,10 @@ impl<'a> Sweep<'a> {
             }
         }
     }
+}
+
+fn three_digits(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
 }
 
 /// $10^{-n}$, correctly rounded.
@@ -187,9 +199,10 @@ impl Iterator for Sweep<'_> {
 
     fn next(&mut self) -> Option<Point> {
         let setting = self.next.take()?;
+        let begin = Instant::now();
         let outcome = self.measure(setting);
         self.tried += 1;
-        if !self.is_last(&outcome) {
+        if !self.is_last(&outcome, begin.elapsed()) {
             self.next = self.finer(setting);
         }
         Some(Point { setting, outcome })

@@ -39,7 +39,7 @@ impl Timing {
     ) -> Result<(Cost, u32), Failure> {
         let mut least = contender.run(problem, setting)?;
         let (begin, mut runs) = (Instant::now(), 0);
-        // The warm-up does not count: its time is never the least but by chance, and then it is as good.
+        // The run above has warmed up: its time does not count.
         while runs < self.runs && (runs == 0 || begin.elapsed() < self.within) {
             let cost = contender.run(problem, setting)?;
             least.time = if runs == 0 {

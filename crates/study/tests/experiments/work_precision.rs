@@ -112,6 +112,34 @@ fn what_fails_is_on_the_chart_with_its_cause() {
 }
 
 #[test]
+fn a_method_that_only_fails_is_on_the_chart_by_name() {
+    let problem = paper(1.0);
+    let reference = Reference::new(&problem).unwrap();
+    let contender = Contender::Rk4;
+    let setting = Setting::Tolerance(1.0);
+    let failure = contender.run(&problem, setting).unwrap_err();
+    let points = vec![Point {
+        setting,
+        outcome: Err(failure),
+    }];
+    let figure = picture(&[Curve { contender, points }], &problem, &reference, "");
+    for panel in &figure.panels {
+        let named = panel.lines.iter().filter(|line| line.label == "rk4");
+        assert!(
+            named.clone().any(|line| line.points.len() == 1),
+            "{panel:?}"
+        );
+    }
+    assert!(
+        figure
+            .render()
+            .unwrap()
+            .svg
+            .contains("rk4 is not run with a tolerance")
+    );
+}
+
+#[test]
 fn an_error_reached_by_luck_is_not_reached() {
     let problem = paper(1.0);
     let reference = Reference::new(&problem).unwrap();
