@@ -13,6 +13,8 @@ const TOLERANCES: (i32, i32) = (2, 13);
 const NEAR: f64 = 3.0;
 /// Within so many, an error that no longer shrinks is rounding's.
 const PLATEAU: f64 = 100.0;
+/// So many times longer may a run take that fails: its steps are too long, and shorter ones are solved faster.
+const LATE: u32 = 10;
 /// No more settings than this.
 const MOST: usize = 64;
 
@@ -141,15 +143,12 @@ impl<'a> Sweep<'a> {
     }
 
     fn is_last(&mut self, outcome: &Result<Measured, Failure>, elapsed: Duration) -> bool {
-        // Of a run that failed, late perhaps, only the whole time is known.
-        let time = outcome
-            .as_ref()
-            .map_or(elapsed, |measured| measured.cost.time);
-        self.slow = if time > self.timing.longest {
-            self.slow + 1
-        } else {
-            0
+        let limit = self.timing.longest;
+        let is_slow = match outcome {
+            Ok(measured) => measured.cost.time > limit,
+            Err(_) => elapsed > LATE * limit,
         };
+        self.slow = if is_slow { self.slow + 1 } else { 0 };
         if self.slow >= 2 || self.tried >= MOST {
             return true;
         }

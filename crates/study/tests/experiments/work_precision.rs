@@ -13,7 +13,7 @@ use crate::common::paper;
 fn curve(name: &str, problem: &Problem, reference: &Reference) -> Curve {
     let contender = name.parse().unwrap();
     let timing = Timing {
-        longest: Duration::from_millis(50),
+        longest: Duration::from_millis(100),
         ..Timing::ONCE
     };
     let points = Sweep::new(contender, problem, reference, timing).collect();
