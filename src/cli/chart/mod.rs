@@ -50,8 +50,8 @@ rk4,rkmk4,rkmk4-plain,cf4,dp54,dp853";
 
 const AFTER_LONG_HELP: &str = "\
 Examples:
-  lgvi chart                                       the built-in scene for 10 s, two minutes of computing
-  lgvi chart boat.toml --until 60 --out boat       a scene of one's own: boat.svg, boat.png, boat.csv
+  lgvi chart                                       the built-in scene for 10 s: two minutes
+  lgvi chart boat.toml --until 60 --out boat       boat.svg, boat.png, boat.csv of your scene
   lgvi chart --methods lgvi,gauss-4,dp853          three methods
   lgvi chart --json | jq '.cheapest[] | {error_radians, cheapest}'
 
