@@ -173,6 +173,7 @@ impl Trajectory {
             colour: self.colour,
             style: Style::Solid,
             points: points.collect(),
+            marker: None,
         }
     }
 }
@@ -185,6 +186,7 @@ fn figure(lost: &Trajectory, kept: &Trajectory) -> Figure {
         y_label: y.into(),
         y_scale,
         lines: [lines(lost), lines(kept)].concat(),
+        ..Panel::default()
     };
     let velocity = |title, y, which: usize| {
         panel(title, y, Scale::Linear, &|method| {
@@ -225,5 +227,6 @@ fn figure(lost: &Trajectory, kept: &Trajectory) -> Figure {
                 m.orthogonality[k]
             }),
         ],
+        ..Figure::default()
     }
 }

@@ -8,6 +8,9 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value;
 use tempfile::TempDir;
 
+#[path = "cli/chart.rs"]
+mod chart;
+
 const SCENE: &str = include_str!("../scenes/fish-chain.toml");
 const BODIES: [&str; 3] = ["head", "tail-1", "tail-2"];
 

@@ -1,6 +1,7 @@
 //! Values of options.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use study::contender::{Contender, UnknownContender};
 use study::methods::{Method, UnknownMethod};
 use thiserror::Error;
 
@@ -41,4 +42,14 @@ pub fn method() -> impl TypedValueParser<Value = Method> {
     };
     PossibleValuesParser::new(Method::all().map(value))
         .try_map(|name| name.parse::<Method>() as Result<_, UnknownMethod>)
+}
+
+/// A method or a baseline by its name; help and errors tell them all.
+pub fn contender() -> impl TypedValueParser<Value = Contender> {
+    let value = |contender: Contender| {
+        let help = format!("order {}: {}", contender.order(), contender.description());
+        PossibleValue::new(contender.name()).help(help)
+    };
+    PossibleValuesParser::new(Contender::all().map(value))
+        .try_map(|name| name.parse::<Contender>() as Result<_, UnknownContender>)
 }

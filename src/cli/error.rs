@@ -6,6 +6,8 @@ use std::process::ExitCode;
 
 use articulated_fluid::{ModelError, SceneError};
 use dvi::{PilotError, StepError};
+use study::figure::FigureError;
+use study::work_precision::UnknownReference;
 use thiserror::Error;
 
 use super::clock::TooManySteps;
@@ -30,7 +32,7 @@ pub enum CliError {
     TooManySteps(#[from] TooManySteps),
     #[error(transparent)]
     TooManySamples(#[from] TooManySamples),
-    #[error("--out {} is the scene itself; give the CSV file another name", .0.display())]
+    #[error("--out {} is the scene itself; give what is written another name", .0.display())]
     OutputIsScene(PathBuf),
     #[error(
         "--out -: stdout has the summary; give a file's name, or ./- for one that is called so"
@@ -48,6 +50,12 @@ pub enum CliError {
     NotFinite { t: f64 },
     #[error("interrupted at t = {t} s; nothing was written")]
     Interrupted { t: f64, signal: usize },
+    #[error("interrupted; nothing was written")]
+    Stopped { signal: usize },
+    #[error(transparent)]
+    Reference(#[from] UnknownReference),
+    #[error(transparent)]
+    Figure(#[from] FigureError),
     #[error("signals cannot be handled: {0}")]
     Signals(#[source] io::Error),
     #[error("stdout cannot be written: {0}")]
@@ -64,7 +72,9 @@ impl CliError {
             | Self::TooManySamples(_)
             | Self::OutputIsScene(_)
             | Self::OutputIsDash => USAGE,
-            Self::Interrupted { signal, .. } => u8::try_from(SIGNALLED + signal).unwrap_or(FAILURE),
+            Self::Interrupted { signal, .. } | Self::Stopped { signal } => {
+                u8::try_from(SIGNALLED + signal).unwrap_or(FAILURE)
+            }
             _ => FAILURE,
         })
     }

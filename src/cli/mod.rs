@@ -1,6 +1,7 @@
 //! The command line: a module for each command, and what they share.
 
 mod args;
+mod chart;
 mod clock;
 mod error;
 mod inspect;
@@ -8,8 +9,8 @@ mod interrupt;
 mod methods;
 mod output;
 mod print;
+mod progress;
 mod run;
-mod sample;
 mod scene;
 mod schedule;
 mod summary;
@@ -27,6 +28,7 @@ Examples:
   lgvi run --until 10 --out fish.csv    10 s of it, with the trajectory
   lgvi run boat.toml --step 0.01        a scene of one's own
   lgvi run --method gauss-4             another integrator, at its own default step
+  lgvi chart boat.toml                  which method is the cheapest for which error
   lgvi inspect boat.toml                what it is modelled with, and why
   lgvi methods                          the integrators: orders, steps, costs
   lgvi run --help                       options, CSV columns, keys of a scene";
@@ -45,6 +47,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Chart(chart::Args),
     Inspect(inspect::Args),
     Methods(methods::Args),
 }
@@ -53,6 +56,7 @@ impl Command {
     fn execute(&self) -> Result<(), CliError> {
         match self {
             Self::Run(args) => run::execute(args),
+            Self::Chart(args) => chart::execute(args),
             Self::Inspect(args) => inspect::execute(args),
             Self::Methods(args) => methods::execute(args),
         }

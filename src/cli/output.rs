@@ -79,6 +79,11 @@ impl Write for Output {
     }
 }
 
+/// Whether two paths lead to one file.
+pub fn same(a: &Path, b: &Path) -> bool {
+    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+}
+
 /// The file to replace: behind symbolic links, and one that may be replaced.
 fn resolve(path: &Path) -> Result<PathBuf, OutputError> {
     let text = path.as_os_str().as_encoded_bytes();

@@ -1,23 +1,21 @@
 //! `lgvi run`: simulates a scene.
 
-use std::fs;
-use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use articulated_fluid::{ArticulatedBody, Configuration, scene};
 use dvi::{Integrator, Pilot, State, StepReport};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 use study::accuracy;
 use study::methods::{BoxedIntegrator, Method};
+use study::watch::{Sample, Watch};
 
 use super::args;
 use super::clock::Clock;
 use super::error::CliError;
 use super::interrupt::Interrupt;
-use super::output::{Output, OutputError};
+use super::output::{Output, OutputError, same};
 use super::print;
-use super::sample::{Sample, Watch};
+use super::progress;
 use super::scene::{Loaded, load};
 use super::schedule::{Due, Schedule};
 use super::summary::Summary;
@@ -82,7 +80,7 @@ impl Args {
                 pilot: None,
             });
         };
-        let bar = waiting("choosing stages and step");
+        let bar = progress::waiting("choosing stages and step");
         let model = &loaded.smallest.model;
         let pilot = accuracy::pilot(model, &loaded.start, self.until, accuracy)?;
         bar.finish_and_clear();
@@ -191,10 +189,6 @@ fn open(args: &Args, loaded: &Loaded) -> Result<Option<Table<Output>>, CliError>
     table.map(Some).map_err(|source| refused(path, source))
 }
 
-fn same(a: &Path, b: &Path) -> bool {
-    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
-}
-
 fn refused(path: &Path, source: OutputError) -> CliError {
     CliError::Output {
         path: path.to_owned(),
@@ -263,7 +257,7 @@ impl<'a> Run<'a> {
         &mut self,
         integrator: &mut dyn Integrator<Group = Configuration>,
     ) -> Result<(), CliError> {
-        let bar = progress_bar(self.clock.steps);
+        let bar = progress::bar(self.clock.steps, "{bar:40} {percent:>3}%, {eta} left");
         for k in 1.. {
             let due = self.schedule.due(&self.clock, k);
             while self.done < due.steps {
@@ -399,25 +393,4 @@ impl<'a> Run<'a> {
             None => Ok(()),
         }
     }
-}
-
-/// A spinner on a terminal's stderr, and none elsewhere.
-fn waiting(what: &'static str) -> ProgressBar {
-    if !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let spinner = ProgressBar::new_spinner().with_message(what);
-    spinner.enable_steady_tick(Duration::from_millis(100));
-    spinner.with_finish(ProgressFinish::AndClear)
-}
-
-/// A bar on a terminal's stderr, and none elsewhere; it goes when it is dropped.
-fn progress_bar(steps: u64) -> ProgressBar {
-    if !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{bar:40} {percent:>3}%, {eta} left");
-    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-        .with_finish(ProgressFinish::AndClear)
 }

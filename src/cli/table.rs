@@ -4,8 +4,7 @@ use std::io::{self, Write};
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use dvi::State;
-
-use super::sample::{Sample, attitudes};
+use study::watch::{Sample, attitudes};
 
 /// The columns as text for help; [`Table`] writes them.
 pub const COLUMNS: &str = "  t                        time, s

@@ -18,6 +18,7 @@ fn line(method: &str, curve: Curve) -> Line {
         colour,
         style,
         points: times.map(|t| (t, curve(t))).collect(),
+        marker: None,
     }
 }
 
@@ -30,6 +31,7 @@ fn panel(title: &str, y_label: &str, scale: Scale, ours: &[Curve], theirs: &[Cur
         y_label: y_label.into(),
         y_scale: scale,
         lines: ours.chain(theirs).collect(),
+        ..Panel::default()
     }
 }
 
@@ -117,6 +119,7 @@ fn main() -> Result<(), FigureError> {
         title: "A chain of three bodies in a perfect fluid".into(),
         columns: 2,
         panels: panels(),
+        ..Figure::default()
     };
     let saved = figure.save(&stem)?;
     println!("{}\n{}", saved.svg.display(), saved.png.display());

@@ -8,12 +8,8 @@ use lie::{LieGroup, Mat3, Rn, SO3, Tangent, VectorSpace};
 
 /// The state as a vector; `t` is left out.
 pub fn pack(state: &State<Configuration>) -> Vec<f64> {
-    let (r0, x, r) = &state.g;
-    let entries = |r: &SO3| r.matrix().0.as_flattened().to_vec();
-    let mut y = entries(r0);
-    y.extend(x.0);
-    y.extend(r.iter().flat_map(entries));
-    y.extend(state.mu.coordinates());
+    let mut y = vec![0.0; length(state)];
+    write(state, &mut y);
     y
 }
 
@@ -34,7 +30,26 @@ pub fn unpack(t: f64, y: &[f64]) -> Option<State<Configuration>> {
     Some(state)
 }
 
-fn fill(state: &mut State<Configuration>, y: &[f64]) {
+/// The length of [`pack`]'s vector.
+pub(crate) fn length(state: &State<Configuration>) -> usize {
+    12 + 9 * state.g.2.len() + state.mu.dim()
+}
+
+/// [`pack`] into a vector of its length.
+pub(crate) fn write(state: &State<Configuration>, y: &mut [f64]) {
+    let (r0, rest) = y.split_at_mut(9);
+    let (x, rest) = rest.split_at_mut(3);
+    let (r, mu) = rest.split_at_mut(9 * state.g.2.len());
+    r0.copy_from_slice(state.g.0.matrix().0.as_flattened());
+    x.copy_from_slice(&state.g.1.0);
+    for (entries, r) in r.chunks_exact_mut(9).zip(state.g.2.iter()) {
+        entries.copy_from_slice(r.matrix().0.as_flattened());
+    }
+    state.mu.write(mu);
+}
+
+/// Sets a state of fitting size to the vector, its matrices as they are.
+pub(crate) fn fill(state: &mut State<Configuration>, y: &[f64]) {
     let (r0, rest) = y.split_at(9);
     let (x, rest) = rest.split_at(3);
     let (r, mu) = rest.split_at(9 * state.g.2.len());
@@ -57,7 +72,7 @@ fn rotation(entries: &[f64]) -> SO3 {
 pub fn right_hand_side(
     model: &ArticulatedBody,
     start: &State<Configuration>,
-) -> impl FnMut(f64, &[f64], &mut [f64]) {
+) -> impl FnMut(f64, &[f64], &mut [f64]) + use<> {
     let model = model.clone();
     let mut state = start.clone();
     let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
@@ -66,7 +81,11 @@ pub fn right_hand_side(
         fill(&mut state, y);
         let (g, mu) = (&state.g, &state.mu);
         model.velocity_and_force::<f64>(t, g, mu, &mut workspace, &mut xi, &mut tau);
-        tau.add_scaled(1.0, &Configuration::coadjoint_bracket(&xi, mu));
+        // Factor by factor: the bracket of the whole would allocate.
+        tau.0.add_scaled(1.0, &SO3::coadjoint_bracket(&xi.0, &mu.0));
+        for ((tau, omega), p) in tau.2.iter_mut().zip(xi.2.iter()).zip(mu.2.iter()) {
+            tau.add_scaled(1.0, &SO3::coadjoint_bracket(omega, p));
+        }
         let (d_r0, rest) = dy.split_at_mut(9);
         let (d_x, rest) = rest.split_at_mut(3);
         let (d_r, d_mu) = rest.split_at_mut(9 * state.g.2.len());

@@ -45,6 +45,7 @@ pub fn figure(runs: &[Vec<LongRun>]) -> Result<Figure, SurveyError> {
         title: "Four systems: motion at coarse steps, and energy over a thousand periods".into(),
         columns: 2,
         panels,
+        ..Figure::default()
     })
 }
 
@@ -54,6 +55,7 @@ fn line((label, colour, style): (&str, Colour, Style), points: Curve) -> Line {
         colour,
         style,
         points,
+        marker: None,
     }
 }
 
@@ -103,6 +105,7 @@ impl<G: RealGroup> Drawing<'_, G> {
             y_label: y.into(),
             y_scale: Scale::Linear,
             lines,
+            ..Panel::default()
         })
     }
 }
@@ -213,5 +216,6 @@ fn energy(title: &str, runs: &[LongRun]) -> Panel {
         y_label: "|ΔE / E|".into(),
         y_scale: Scale::Log,
         lines: lines.collect(),
+        ..Panel::default()
     }
 }

@@ -35,8 +35,7 @@ pub struct Run {
     pub rejected: usize,
 }
 
-/// The motion from `start` for `duration` seconds, by the fastest instructions of this processor; `each` sees the time and the
-/// [raw](crate::raw) state after every accepted step.
+/// The motion from `start` for `duration` seconds, by the fastest instructions of this processor.
 ///
 /// # Errors
 /// [`BaselineError`] for a tolerance or a start out of range, and for a run that cannot reach its end.
@@ -48,7 +47,7 @@ pub struct Run {
 ///
 /// let scene = Scene::parse(include_str!("../../../../scenes/fish-chain.toml"), "fish-chain.toml")?;
 /// let (model, start) = (scene.model()?, scene.initial_state()?);
-/// let run = integrate(&model, &start, 1.0, Tolerance::uniform(1e-10), |_, _| ())?;
+/// let run = integrate(&model, &start, 1.0, Tolerance::uniform(1e-10))?;
 /// assert_eq!(run.end.t, 1.0);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
@@ -57,33 +56,34 @@ pub fn integrate<M: Mass>(
     start: &State<Configuration>,
     duration: f64,
     tolerance: Tolerance,
-    each: impl FnMut(f64, &[f64]),
 ) -> Result<Run, BaselineError> {
-    integrate_with(
-        InstructionSet::single(),
+    sample(
         model,
         start,
         duration,
+        (f64::INFINITY, &mut |_, _| ()),
         tolerance,
-        each,
     )
 }
 
-/// The same by other instructions.
+/// The same, and `each` sees the times `every`, `2 every`, … with the [raw](crate::raw) states there: a step of their own from the
+/// last accepted state, as exact as the steps, and not among the evaluations.
 ///
 /// # Errors
 /// As [`integrate`].
-pub fn integrate_with<M: Mass>(
-    instructions: InstructionSet,
+pub fn sample<M: Mass>(
     model: &ArticulatedBody<M>,
     start: &State<Configuration>,
     duration: f64,
+    (every, each): (f64, &mut dyn FnMut(f64, &[f64])),
     tolerance: Tolerance,
-    each: impl FnMut(f64, &[f64]),
 ) -> Result<Run, BaselineError> {
     tolerance.check()?;
     if !(duration.is_finite() && duration > 0.0) {
         return Err(BaselineError::Until { until: duration });
+    }
+    if every.is_nan() || every <= 0.0 {
+        return Err(BaselineError::Every { every });
     }
     if !ContinuousSystem::fits(model, &start.g) {
         return Err(BaselineError::Misfit);
@@ -96,32 +96,31 @@ pub fn integrate_with<M: Mass>(
         duration,
         tolerance,
         y,
+        every,
         each,
     };
-    lanes::run(instructions, march)
+    lanes::run(InstructionSet::single(), march)
 }
 
-struct March<'a, M, F> {
+struct March<'a, M> {
     model: &'a ArticulatedBody<M>,
     start: &'a State<Configuration>,
     duration: f64,
     tolerance: Tolerance,
     y: Vec<f64>,
-    each: F,
+    every: f64,
+    each: &'a mut dyn FnMut(f64, &[f64]),
 }
 
-impl<M: Mass, F: FnMut(f64, &[f64])> Job for March<'_, M, F> {
+impl<M: Mass> Job for March<'_, M> {
     type Output = Result<Run, BaselineError>;
 
-    fn run<S: Batch<Item = f64>>(mut self) -> Self::Output {
-        let mut pair = Pair::new(
-            RightHandSide::<M, S>::new(self.model, self.start),
-            self.tolerance,
-            self.y,
-        );
+    fn run<S: Batch<Item = f64>>(self) -> Self::Output {
+        let rates = RightHandSide::<M, S>::new(self.model, self.start);
+        let mut pair = Pair::new(rates, self.tolerance, self.y);
         let (mut t, until) = (0.0, self.duration);
         let mut h = pair.first_step(until);
-        let (mut accepted, mut rejected) = (0, 0);
+        let (mut accepted, mut rejected, mut samples) = (0, 0, 1);
         while t < until {
             if accepted + rejected >= MAX_STEPS {
                 return Err(BaselineError::TooManySteps {
@@ -136,16 +135,20 @@ impl<M: Mass, F: FnMut(f64, &[f64])> Job for March<'_, M, F> {
             }
             let error = pair.attempt(h);
             let wanted = SAFETY * error.powf(-1.0 / 8.0);
-            let factor = if wanted.is_nan() {
-                FACTORS[0]
-            } else {
-                wanted.clamp(FACTORS[0], FACTORS[1])
+            let factor = match wanted.is_nan() {
+                true => FACTORS[0],
+                false => wanted.clamp(FACTORS[0], FACTORS[1]),
             };
             if error <= 1.0 {
+                let next = if last { until } else { t + h };
+                while self.every * f64::from(samples) <= next {
+                    let at = self.every * f64::from(samples);
+                    (self.each)(at, pair.peek(at - t, h));
+                    samples += 1;
+                }
                 pair.accept();
-                t = if last { until } else { t + h };
+                t = next;
                 accepted += 1;
-                (self.each)(t, &pair.y);
                 // After a refused step the next one is no longer.
                 h *= if pair.refused {
                     factor.min(1.0)
@@ -176,6 +179,7 @@ struct Pair<'a, M, S: Batch<Item = f64>> {
     y: Vec<f64>,
     next: Vec<f64>,
     k: [Vec<f64>; 12],
+    ahead: Vec<f64>,
     error: Vec<f64>,
     zero: Vec<f64>,
     refused: bool,
@@ -186,12 +190,13 @@ impl<'a, M: Mass, S: Batch<Item = f64>> Pair<'a, M, S> {
         let mut k = [const { Vec::new() }; 12].map(|_: Vec<f64>| vec![0.0; y.len()]);
         rates.evaluate(&y, &mut k[0]);
         let zero = vec![0.0; y.len()];
-        let (next, error) = (y.clone(), zero.clone());
+        let (next, ahead, error) = (y.clone(), y.clone(), zero.clone());
         Self {
             rates,
             tolerance,
             y,
             next,
+            ahead,
             k,
             error,
             zero,
@@ -261,6 +266,18 @@ impl<'a, M: Mass, S: Batch<Item = f64>> Pair<'a, M, S> {
                 squares.sum()
             },
         )
+    }
+
+    /// The state a part of the attempted step of `h` ahead.
+    fn peek(&mut self, part: f64, h: f64) -> &[f64] {
+        self.ahead.copy_from_slice(&self.next);
+        if part < h {
+            let evaluations = self.rates.evaluations;
+            self.attempt(part);
+            self.rates.evaluations = evaluations;
+            core::mem::swap(&mut self.next, &mut self.ahead);
+        }
+        &self.ahead
     }
 
     /// Takes the step; its end is the next one's first stage.

@@ -3,14 +3,14 @@
 use super::Style;
 use super::thin::Pixel;
 
-/// A path this many times longer than wide fills its panel: dashes along it
-/// would be a haze, so they follow the horizontal axis instead.
+/// A path this many times longer than what it spans fills its panel: dashes
+/// along it would be a haze, so they follow the horizontal axis instead.
 const WINDING: f64 = 2.5;
 
 /// Lengths of dash and gap, in pixels.
 fn pattern(style: Style) -> Option<(f64, f64)> {
     match style {
-        Style::Solid => None,
+        Style::Solid | Style::Invisible => None,
         Style::Dashed => Some((9.0, 5.5)),
         Style::Dotted => Some((2.2, 4.0)),
     }
@@ -18,10 +18,14 @@ fn pattern(style: Style) -> Option<(f64, f64)> {
 
 /// The strokes that show a path in a style.
 pub(super) fn dash(path: Vec<Pixel>, style: Style) -> Vec<Vec<Pixel>> {
+    if style == Style::Invisible {
+        return vec![];
+    }
     let Some((on, off)) = pattern(style) else {
         return vec![path];
     };
-    let along = length(&path, distance) <= WINDING * length(&path, advance);
+    let span = length(&path, advance) + height(&path);
+    let along = length(&path, distance) <= WINDING * span;
     let measure = if along { distance } else { advance };
     let mut cutter = Cutter {
         lengths: [on, off],
@@ -45,6 +49,13 @@ fn distance(a: Pixel, b: Pixel) -> f64 {
 
 fn advance(a: Pixel, b: Pixel) -> f64 {
     (b.0 - a.0).abs()
+}
+
+/// From the highest to the lowest point.
+fn height(path: &[Pixel]) -> f64 {
+    let span = |(low, high): (f64, f64), p: &Pixel| (low.min(p.1), high.max(p.1));
+    let (low, high) = path.iter().fold((f64::MAX, f64::MIN), span);
+    (high - low).max(0.0)
 }
 
 fn length(path: &[Pixel], measure: fn(Pixel, Pixel) -> f64) -> f64 {
@@ -116,6 +127,12 @@ mod tests {
             .collect();
         let strokes = dash(path, Style::Dashed);
         assert_eq!(strokes.len(), (699.0_f64 / 14.5).ceil() as usize);
+    }
+
+    #[test]
+    fn a_steep_line_is_dashed_along() {
+        let strokes = dash(vec![(0.0, 0.0), (1.0, 140.0)], Style::Dashed);
+        assert_eq!(strokes.len(), 10);
     }
 
     #[test]

@@ -5,15 +5,18 @@ use plotters::style::RGBColor;
 use plotters::style::text_anchor::HPos;
 
 use super::dash::dash;
-use super::layout::{Cell, EDGE, LABEL, Layout, PANEL_TITLE, TICK, TICK_GAP, TITLE};
+use super::ends::ends;
+use super::layout::{Cell, EDGE, LABEL, Layout, NOTE, PANEL_TITLE, TICK, TICK_GAP, TITLE};
 use super::legend::{Entry, SAMPLE};
+use super::mark::{Shape, shape};
 use super::surface::{Surface, Text};
 use super::thin::{Pixel, thin};
-use super::{Colour, Figure, FigureError, Line, Panel, font};
+use super::{Colour, Figure, FigureError, Labels, Level, Line, Marker, Panel, Style, font};
 
 const PAPER: RGBColor = RGBColor(255, 255, 255);
 const INK: RGBColor = RGBColor(26, 26, 26);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
+const LEADER: RGBColor = RGBColor(170, 170, 170);
 const RULE: RGBColor = RGBColor(229, 229, 229);
 
 /// Widths of strokes.
@@ -40,12 +43,28 @@ pub(super) fn draw<B: DrawingBackend>(
     }
     for (panel, cell) in figure.panels.iter().zip(&layout.cells) {
         rules(on, cell)?;
+        for level in &panel.levels {
+            level_line(on, cell, level)?;
+        }
+        if figure.labels == Labels::Ends {
+            end_labels(on, panel, cell)?;
+        }
         for line in &panel.lines {
             curve(on, cell, line)?;
         }
         frame(on, cell)?;
         tick_labels(on, cell)?;
         names(on, panel, cell)?;
+    }
+    for (y, note) in &layout.notes {
+        on.text(&Text {
+            text: note,
+            at: (EDGE, *y),
+            size: NOTE,
+            align: HPos::Left,
+            upright: false,
+            colour: INK,
+        })?;
     }
     Ok(())
 }
@@ -88,6 +107,54 @@ fn curve<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, line: &Line) -> Do
     for stroke in dash(thin(points), line.style) {
         on.stroke(&stroke, colour(line.colour), CURVE)?;
     }
+    match line.marker {
+        Some(marker) => marks(on, cell, line, marker),
+        None => Ok(()),
+    }
+}
+
+fn marks<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, line: &Line, marker: Marker) -> Done {
+    let mut points = line.points.iter().filter_map(|p| cell.pixel(*p));
+    points.try_for_each(|at| mark(on, at, line, marker))
+}
+
+fn mark<B: DrawingBackend>(on: &mut Surface<B>, at: Pixel, line: &Line, marker: Marker) -> Done {
+    let colour = colour(line.colour);
+    match shape(marker, at) {
+        Shape::Filled(corners) => on.polygon(&corners, colour),
+        Shape::Strokes(strokes) => strokes
+            .iter()
+            .try_for_each(|stroke| on.stroke(stroke, colour, CURVE)),
+    }
+}
+
+fn level_line<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, level: &Level) -> Done {
+    let Some(y) = cell.height(level.y) else {
+        return Ok(());
+    };
+    let path = vec![(cell.plot.left, y), (cell.plot.right(), y)];
+    for stroke in dash(path, Style::Dashed) {
+        on.stroke(&stroke, FRAME, THIN)?;
+    }
+    Ok(())
+}
+
+/// Below the curves, so that a leader hides nothing.
+fn end_labels<B: DrawingBackend>(on: &mut Surface<B>, panel: &Panel, cell: &Cell) -> Done {
+    for end in ends(panel, cell) {
+        on.stroke(&end.leader, LEADER, THIN)?;
+        on.text(&Text {
+            text: end.label,
+            at: end.at,
+            size: TICK,
+            align: HPos::Left,
+            upright: false,
+            colour: end.line.map_or(INK, |line| colour(line.colour)),
+        })?;
+        if let Some((line, marker)) = end.line.and_then(|line| Some((line, line.marker?))) {
+            mark(on, end.mark, line, marker)?;
+        }
+    }
     Ok(())
 }
 
@@ -105,6 +172,10 @@ fn frame<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell) -> Done {
     for tick in &cell.x.major {
         let x = left + tick.at * plot.width;
         on.stroke(&[(x, bottom), (x, bottom + TICK_LENGTH)], FRAME, THIN)?;
+    }
+    for at in &cell.x.minor {
+        let x = left + at * plot.width;
+        on.stroke(&[(x, bottom), (x, bottom + MINOR_LENGTH)], FRAME, THIN)?;
     }
     let majors = cell.y.major.iter().map(|t| (t.at, TICK_LENGTH));
     let minors = cell.y.minor.iter().map(|at| (*at, MINOR_LENGTH));

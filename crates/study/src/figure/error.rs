@@ -27,6 +27,12 @@ pub enum FigureError {
         /// Rows possible.
         max_rows: usize,
     },
+    /// The charts are too low or too tall.
+    #[error("charts {height} pixels high cannot be drawn: give between 1 and 2000")]
+    PlotHeight {
+        /// The height asked for.
+        height: f64,
+    },
     /// The path to write to does not end in a file name.
     #[error("the path {} does not end in a file name: give the files a name", path.display())]
     NoFileName {

@@ -54,6 +54,19 @@ pub(super) fn cut(text: &str, size: f64, room: f64) -> Result<String, FigureErro
     Ok(shown)
 }
 
+/// A paragraph in lines of at most `room`.
+pub(super) fn wrap(text: &str, size: f64, room: f64) -> Result<Vec<String>, FigureError> {
+    let mut lines: Vec<String> = vec![];
+    for word in text.split_whitespace() {
+        let longer = lines.last().map(|line| format!("{line} {word}"));
+        match (longer, lines.last_mut()) {
+            (Some(longer), Some(last)) if width(&longer, size)? <= room => *last = longer,
+            _ => lines.push(cut(word, size, room)?),
+        }
+    }
+    Ok(lines)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,6 +89,15 @@ mod tests {
         assert!(text == "a little long" && size < 20.0);
         let (text, size) = fit(&"very long ".repeat(30), 20.0, 100.0).unwrap();
         assert!(text.ends_with('…') && width(&text, size).unwrap() <= 100.0);
+    }
+
+    #[test]
+    fn paragraphs_are_broken_between_words() {
+        register().unwrap();
+        let room = width("a few more", 20.0).unwrap();
+        let lines = wrap("a few more words", 20.0, room + 1.0).unwrap();
+        assert_eq!(lines, ["a few more", "words"]);
+        assert!(wrap(" ", 20.0, room).unwrap().is_empty());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, coordinate};
 use super::legend::Legend;
-use super::{Figure, FigureError, Panel, Scale, font};
+use super::{Figure, FigureError, Labels, Panel, Scale, ends, font};
 
 pub(super) const MAX_COLUMNS: usize = 6;
 pub(super) const MAX_ROWS: usize = 24;
@@ -13,6 +13,8 @@ pub(super) const PANEL_TITLE: f64 = 18.0;
 pub(super) const LABEL: f64 = 16.5;
 pub(super) const TICK: f64 = 15.0;
 
+pub(super) const NOTE: f64 = 13.5;
+
 /// Between a tick and its label.
 pub(super) const TICK_GAP: f64 = 9.0;
 
@@ -20,13 +22,14 @@ pub(super) const TICK_GAP: f64 = 9.0;
 pub(super) const EDGE: f64 = 20.0;
 const CELL_WIDTH: f64 = 762.0;
 const CELL_GAP: f64 = 36.0;
-const PLOT_HEIGHT: f64 = 250.0;
 const TITLE_BAND: f64 = 36.0;
 const X_BAND: f64 = 62.0;
 const ROW_GAP: f64 = 16.0;
 const Y_LABEL_BAND: f64 = 32.0;
 /// Half a tick label may stand over the right end of a plot.
 const RIGHT: f64 = 22.0;
+/// Between the middle lines of notes.
+const NOTE_PITCH: f64 = 18.0;
 const X_TICKS: usize = 7;
 const Y_TICKS: usize = 6;
 const Y_MARGIN: f64 = 0.06;
@@ -76,6 +79,8 @@ pub(super) struct Layout {
     pub(super) title_y: f64,
     pub(super) legend: Legend,
     pub(super) cells: Vec<Cell>,
+    /// Lines of text with their middle lines.
+    pub(super) notes: Vec<(f64, String)>,
 }
 
 impl Layout {
@@ -86,11 +91,18 @@ impl Layout {
         let legend = Legend::new(figure, (EDGE, width - 2.0 * EDGE), EDGE + title_height)?;
         let top = EDGE + title_height + legend.height();
         let axes: Vec<Axes> = figure.panels.iter().map(Axes::new).collect();
-        let cells = place(axes, columns, top)?;
+        let right = match figure.labels {
+            Labels::Legend => RIGHT,
+            Labels::Ends => ends::room(figure.panels.iter())?.min(CELL_WIDTH / 2.0),
+        };
+        let cells = place(axes, columns, (top, figure.plot_height, right))?;
         let bottom = cells.iter().map(|c| c.x_label_y).fold(0.0, f64::max);
+        let notes = notes(figure, bottom, width - 2.0 * EDGE)?;
+        let end = notes.last().map_or(bottom, |(y, _)| *y);
         Ok(Self {
             width,
-            height: bottom + EDGE,
+            height: end + EDGE,
+            notes,
             title_y: EDGE + title_height / 2.0 - 4.0,
             legend,
             cells,
@@ -108,7 +120,7 @@ impl Axes {
     fn new(panel: &Panel) -> Self {
         let (mut xs, mut ys) = (None, None);
         for (x, y) in panel.lines.iter().flat_map(|l| &l.points) {
-            let x = coordinate(Scale::Linear, *x);
+            let x = coordinate(panel.x_scale, *x);
             // A zero on a logarithmic axis is not drawn, but its time counts.
             if let (Some(x), Some(_)) = (x, coordinate(Scale::Linear, *y)) {
                 cover(&mut xs, x);
@@ -117,10 +129,15 @@ impl Axes {
                 }
             }
         }
+        let empty = ys.is_none();
+        let levels = panel.levels.iter();
+        for y in levels.filter_map(|level| coordinate(panel.y_scale, level.y)) {
+            cover(&mut ys, y);
+        }
         Self {
-            x: Axis::new(Scale::Linear, xs, 0.0, X_TICKS),
+            x: Axis::new(panel.x_scale, xs, 0.0, X_TICKS),
             y: Axis::new(panel.y_scale, ys, Y_MARGIN, Y_TICKS),
-            empty: ys.is_none(),
+            empty,
         }
     }
 
@@ -133,27 +150,43 @@ impl Axes {
     }
 }
 
+fn notes(figure: &Figure, above: f64, room: f64) -> Result<Vec<(f64, String)>, FigureError> {
+    let mut notes = vec![];
+    let mut y = above + TICK;
+    for note in &figure.notes {
+        for line in font::wrap(note, NOTE, room)? {
+            y += NOTE_PITCH;
+            notes.push((y, line));
+        }
+    }
+    Ok(notes)
+}
+
 fn cover(range: &mut Option<(f64, f64)>, value: f64) {
     let (low, high) = range.get_or_insert((value, value));
     *low = low.min(value);
     *high = high.max(value);
 }
 
-fn place(axes: Vec<Axes>, columns: usize, top: f64) -> Result<Vec<Cell>, FigureError> {
+fn place(
+    axes: Vec<Axes>,
+    columns: usize,
+    (top, plot_height, right): (f64, f64, f64),
+) -> Result<Vec<Cell>, FigureError> {
     // The widest tick label of a column sets the left end of all its plots.
     let mut labels = vec![0.0_f64; columns];
     for (k, a) in axes.iter().enumerate() {
         labels[k % columns] = labels[k % columns].max(a.label_width()?);
     }
-    let row_height = TITLE_BAND + PLOT_HEIGHT + X_BAND + ROW_GAP;
+    let row_height = TITLE_BAND + plot_height + X_BAND + ROW_GAP;
     let cells = axes.into_iter().enumerate().map(|(k, axes)| {
         let left = EDGE + (k % columns) as f64 * (CELL_WIDTH + CELL_GAP);
         let indent = Y_LABEL_BAND + labels[k % columns] + TICK_GAP;
         let plot = Area {
             left: left + indent,
             top: top + (k / columns) as f64 * row_height + TITLE_BAND,
-            width: CELL_WIDTH - indent - RIGHT,
-            height: PLOT_HEIGHT,
+            width: CELL_WIDTH - indent - right,
+            height: plot_height,
         };
         Cell::new(plot, left, axes)
     });
@@ -174,10 +207,14 @@ impl Cell {
         }
     }
 
+    /// The vertical pixel of a value, if it can be placed.
+    pub(super) fn height(&self, y: f64) -> Option<f64> {
+        Some(self.plot.bottom() - self.y.place(y)? * self.plot.height)
+    }
+
     /// The pixel of a point, if it can be placed.
     pub(super) fn pixel(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
-        let (x, y) = (self.x.place(x)?, self.y.place(y)?);
-        let plot = &self.plot;
-        Some((plot.left + x * plot.width, plot.bottom() - y * plot.height))
+        let (x, y) = (self.x.place(x)?, self.height(y)?);
+        Some((self.plot.left + x * self.plot.width, y))
     }
 }

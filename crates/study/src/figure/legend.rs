@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::layout::LABEL;
-use super::{Colour, Figure, FigureError, Line, Style, font};
+use super::{Colour, Figure, FigureError, Labels, Line, Style, font};
 
 /// Length of the stroke shown before a name.
 pub(super) const SAMPLE: f64 = 48.0;
@@ -83,6 +83,9 @@ impl Legend {
 
 /// One line of every label, colour and style, in order of appearance.
 fn kinds(figure: &Figure) -> Vec<&Line> {
+    if figure.labels != Labels::Legend {
+        return vec![];
+    }
     let kind = |l: &Line| (l.label.clone(), l.colour, l.style);
     let mut seen = HashSet::new();
     let lines = figure.panels.iter().flat_map(|p| &p.lines);

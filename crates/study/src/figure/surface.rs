@@ -151,6 +151,18 @@ impl<B: DrawingBackend> Surface<B> {
         Ok(())
     }
 
+    /// Fills a polygon.
+    pub(super) fn polygon(
+        &mut self,
+        corners: &[Pixel],
+        colour: RGBColor,
+    ) -> Result<(), FigureError> {
+        let corners: Vec<_> = corners.iter().map(|p| self.grid(*p)).collect();
+        self.backend
+            .fill_polygon(corners, &colour)
+            .map_err(FigureError::draw)
+    }
+
     /// Draws a text.
     pub(super) fn text(&mut self, text: &Text) -> Result<(), FigureError> {
         let font = (font::FAMILY, text.size * self.size_per_em * self.scale).into_font();

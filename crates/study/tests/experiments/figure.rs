@@ -41,6 +41,7 @@ fn line(label: &str, style: Style, points: Vec<(f64, f64)>) -> Line {
         colour,
         style,
         points,
+        marker: None,
     }
 }
 
@@ -51,6 +52,7 @@ fn panel(title: &str, y_scale: Scale, lines: Vec<Line>) -> Panel {
         y_label: "y [m]".into(),
         y_scale,
         lines,
+        ..Panel::default()
     }
 }
 
@@ -59,6 +61,7 @@ fn figure(columns: usize, panels: Vec<Panel>) -> Figure {
         title: "A title".into(),
         columns,
         panels,
+        ..Figure::default()
     }
 }
 

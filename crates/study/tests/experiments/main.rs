@@ -2,7 +2,10 @@
 //! compiled once.
 
 mod baseline;
+mod common;
+mod contenders;
 mod figure;
 mod methods;
 mod problems;
 mod systems;
+mod work_precision;

@@ -1,4 +1,15 @@
 //! What a run is judged by: the conserved quantities, and how far they stray.
+//!
+//! ```
+//! use articulated_fluid::{Scene, scene};
+//! use study::watch::{Sample, Watch};
+//!
+//! let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
+//! let (model, start) = (scene.model()?, scene.initial_state()?);
+//! let sample = Sample::take(&model, &start).ok_or("a number is not finite")?;
+//! assert_eq!(Watch::new(&model, sample).energy_relative(), Some(0.0));
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;

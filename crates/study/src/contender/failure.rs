@@ -1,0 +1,32 @@
+//! Why a run did not reach its end.
+
+use dvi::StepError;
+use thiserror::Error;
+
+use crate::baseline::BaselineError;
+
+/// Why a contender did not reach the end of a run.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Failure {
+    /// A step was refused.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The adaptive method refused its input or gave up.
+    #[error(transparent)]
+    Adaptive(#[from] BaselineError),
+    /// The setting is the other control's: a step for a tolerance, or the reverse.
+    #[error("{name} is not run with {given}")]
+    Control {
+        /// The contender.
+        name: &'static str,
+        /// The setting.
+        given: String,
+    },
+    /// What is measured of a state is not a number.
+    #[error("at t = {t} s the energy, a momentum or an attitude is not a finite number")]
+    NotFinite {
+        /// Time of the state, s.
+        t: f64,
+    },
+}

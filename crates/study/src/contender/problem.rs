@@ -1,0 +1,122 @@
+//! What is run, with what setting, and at what price.
+
+use core::fmt;
+use std::time::{Duration, Instant};
+
+use articulated_fluid::{ArticulatedBody, Configuration};
+use dvi::State;
+
+use super::{Contender, Control, Failure, adaptive, fixed};
+
+/// A model, where it starts and how long it runs: the same for every contender.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// The model in space.
+    pub model: ArticulatedBody,
+    /// At $t = 0$.
+    pub start: State<Configuration>,
+    /// s.
+    pub until: f64,
+}
+
+/// How a contender is asked to run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Setting {
+    /// In so many equal steps.
+    Steps(u64),
+    /// To this relative and absolute tolerance.
+    Tolerance(f64),
+}
+
+impl Setting {
+    /// What it controls.
+    pub fn control(self) -> Control {
+        match self {
+            Self::Steps(_) => Control::Step,
+            Self::Tolerance(_) => Control::Tolerance,
+        }
+    }
+
+    /// The step, s, or the tolerance.
+    pub fn value(self, until: f64) -> f64 {
+        match self {
+            Self::Steps(steps) => until / steps as f64,
+            Self::Tolerance(tolerance) => tolerance,
+        }
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Steps(steps) => write!(f, "{steps} steps"),
+            Self::Tolerance(tolerance) => write!(f, "a tolerance of {tolerance:e}"),
+        }
+    }
+}
+
+/// What a run cost; counts do not depend on the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Of stepping alone.
+    pub time: Duration,
+    /// Steps taken, of an adaptive method those accepted.
+    pub steps: u64,
+    /// Evaluations of the continuous model's velocity and force, or of the discrete Lagrangian's derivatives; Newton's matrices are not
+    /// counted.
+    pub evaluations: u64,
+    /// Of the solver; none of an explicit method.
+    pub iterations: u64,
+}
+
+impl Problem {
+    /// The times $k T / n$, $k = 0, \dots, n$, with $T$ the end and $n$ = `samples`.
+    pub fn times(&self, samples: u64) -> Vec<f64> {
+        let time = |k| self.until * k as f64 / samples as f64;
+        (0..=samples).map(time).collect()
+    }
+}
+
+impl Contender {
+    /// Runs to the end without looking at what is between.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn run(self, problem: &Problem, setting: Setting) -> Result<Cost, Failure> {
+        match setting {
+            Setting::Steps(steps) => fixed::run(self, problem, steps),
+            Setting::Tolerance(tolerance) => adaptive::run(self, problem, tolerance),
+        }
+    }
+
+    /// The states at $k T / n$ for $k = 0, \dots, n$, $T$ the end and $n$ = `samples`; the steps are those of [`run`](Self::run), and what
+    /// lies inside a step is a shorter step of the method, not interpolated.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn sample(
+        self,
+        problem: &Problem,
+        setting: Setting,
+        samples: u64,
+    ) -> Result<Vec<State<Configuration>>, Failure> {
+        match setting {
+            Setting::Steps(steps) => fixed::sample(self, problem, steps, samples),
+            Setting::Tolerance(tolerance) => adaptive::sample(self, problem, tolerance, samples),
+        }
+    }
+
+    pub(super) fn misused(self, setting: Setting) -> Failure {
+        Failure::Control {
+            name: self.name(),
+            given: setting.to_string(),
+        }
+    }
+}
+
+/// The time that `work` takes.
+pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let begin = Instant::now();
+    let done = work();
+    (done, begin.elapsed())
+}

@@ -1,0 +1,133 @@
+//! `lgvi chart`: work against precision.
+
+mod files;
+mod json;
+mod report;
+
+use std::path::PathBuf;
+
+use indicatif::ProgressBar;
+use study::contender::{Contender, Problem};
+use study::work_precision::{Curve, Reference, Sweep, Timing, csv, picture};
+
+use super::args;
+use super::error::CliError;
+use super::interrupt::Interrupt;
+use super::print::{self, decimal, one_line};
+use super::progress;
+use super::scene::{Loaded, load};
+use files::Files;
+use report::Report;
+
+/// Chart what each method costs for which error, on a scene of your own.
+///
+/// Runs each method from long steps, or loose tolerances, to short ones, and measures the largest errors over the run against a
+/// reference that two methods have found independently. Writes a chart (SVG and PNG) and all numbers (CSV), and prints which method
+/// is the cheapest for an error. What fails is on the chart, with its cause.
+#[derive(clap::Args)]
+#[command(after_long_help = AFTER_LONG_HELP)]
+pub struct Args {
+    /// The scene, a TOML file [default: three bodies, from Lee, Leok & McClamroch (2009)]
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+    /// Simulated time, in seconds
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = args::seconds, allow_hyphen_values = true)]
+    until: f64,
+    /// The methods to compare, separated by commas
+    #[arg(long, value_name = "NAMES", default_value = METHODS, value_delimiter = ',', value_parser = args::contender())]
+    methods: Vec<Contender>,
+    /// Write STEM.svg, STEM.png and STEM.csv: whole, or not at all
+    #[arg(long, value_name = "STEM", default_value = "chart")]
+    out: PathBuf,
+    /// Print all numbers as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Without those that are never the cheapest and would only fill the chart.
+const METHODS: &str = "lgvi,composition-2,composition-4,composition-8,gauss-2,gauss-4,gauss-6,gauss-8,\
+rk4,rkmk4,rkmk4-plain,cf4,dp54,dp853";
+
+const AFTER_LONG_HELP: &str = "\
+Examples:
+  lgvi chart                                       the built-in scene for 10 s: two minutes
+  lgvi chart boat.toml --until 60 --out boat       boat.svg, boat.png, boat.csv of your scene
+  lgvi chart --methods lgvi,gauss-4,dp853          three methods
+  lgvi chart --json | jq '.cheapest[] | {error_radians, cheapest}'
+
+What is measured:
+  error        the largest angle between a body's attitude and the reference's, at 200 times over the run
+  time         of stepping alone: the least of 20 runs, or of what fits into 2 s, at two times, one after the other
+  evaluations  of the continuous model, for lgvi and composition of the discrete one; they do not depend on the machine
+  setting      one counts as reaching an error only if all finer settings of its method do
+All methods step the same model, that of lgvi run --full without the translation. Where lgvi inspect finds a smaller one,
+lgvi run is faster than the chart says. A method's line ends at the reference's own error, or after two runs of more than half a second.
+
+Exit codes:
+  0    done, even if single runs of the chart failed
+  1    there is no reference, or a write failed; no file is left, old ones are as they were
+  2    an argument or the scene is wrong
+  130  interrupted (143: terminated); as 1";
+
+/// Runs the methods, writes the files and prints the table.
+pub fn execute(args: &Args) -> Result<(), CliError> {
+    let loaded = load(args.scene.as_deref())?;
+    loaded.overlaps.iter().for_each(print::warning);
+    let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
+    let files = Files::create(&args.out, args.scene.as_deref())?;
+    let problem = Problem {
+        model: loaded.model.clone(),
+        start: loaded.start.clone(),
+        until: args.until,
+    };
+    let reference = Reference::new(&problem)?;
+    let curves = sweep(&args.methods, &problem, &reference, &interrupt)?;
+    let figure = picture(&curves, &problem, &reference, &title(&loaded, args.until));
+    let written = files.finish(&figure.render()?, &csv(&curves, args.until))?;
+    let report = Report::new(&loaded, &problem, &reference, &curves, &written);
+    print::stdout(&match args.json {
+        true => print::json(&json::Object::from(&report))?,
+        false => report.text(),
+    })
+}
+
+fn title(loaded: &Loaded, until: f64) -> String {
+    let title = loaded.scene.title.as_ref().unwrap_or(&loaded.file);
+    format!("{}: {} s", one_line(title), decimal(until))
+}
+
+/// One method after the other: what runs beside would be in the times.
+fn sweep(
+    methods: &[Contender],
+    problem: &Problem,
+    reference: &Reference,
+    interrupt: &Interrupt,
+) -> Result<Vec<Curve>, CliError> {
+    let heed = || match interrupt.signal() {
+        Some(signal) => Err(CliError::Stopped { signal }),
+        None => Ok(()),
+    };
+    let mut curves: Vec<Curve> = vec![];
+    let bar: ProgressBar = progress::bar(
+        methods.len() as u64,
+        "{bar:40} {pos} of {len} methods, {msg}",
+    );
+    for &contender in methods {
+        if curves.iter().any(|curve| curve.contender == contender) {
+            continue;
+        }
+        bar.set_message(contender.name());
+        let mut points = vec![];
+        for point in Sweep::new(contender, problem, reference, Timing::BEST_OF_10) {
+            points.push(point);
+            heed()?;
+        }
+        curves.push(Curve { contender, points });
+        bar.inc(1);
+    }
+    bar.set_message("timing once more");
+    for curve in &mut curves {
+        curve.time_again(problem, Timing::BEST_OF_10, heed)?;
+    }
+    Ok(curves)
+}
