@@ -7,13 +7,13 @@ use crate::numbers::larger;
 use crate::{ContinuousSystem, Gauss, Integrator, State, StepError};
 
 /// Times at which runs are compared.
-const SAMPLES: usize = 20;
+const SAMPLES: usize = 8;
 /// Steps of the pilot's coarsest run, at most: what is longer is judged by its beginning.
 const LONGEST: f64 = 2000.0;
 /// Steps of the pilot's finest run, at most.
 const FINEST: usize = 400_000;
 /// The part of the accuracy that the reference's own error may take, that a run's may, and that an unfinished iteration's may.
-const PARTS: [f64; 3] = [0.05, 0.4, 1e-3];
+const PARTS: [f64; 3] = [0.1, 0.4, 1e-3];
 /// The numbers of stages that are tried: few cost less where the steps are short anyway.
 const STAGES: [usize; 3] = [4, 6, 8];
 /// Trials between a step that is too long and one that is not.
@@ -78,7 +78,7 @@ pub enum PilotError {
     /// Two runs of ever shorter steps do not agree as well as was asked for.
     #[error(
         "an accuracy of {accuracy:e} over {horizon} s is out of reach: the finest runs differ by {best:.1e}; \
-         ask for {:.0e}, or for a shorter time", 30.0 * best
+         ask for {:.0e}, or for a shorter time", 20.0 * best
     )]
     OutOfReach {
         /// As asked for.

@@ -50,8 +50,6 @@ pub enum InstructionSet {
     Baseline,
     /// Two doubles by NEON.
     Neon,
-    /// Two doubles by FMA, in the lower half of AVX2's registers; the fastest for one, too.
-    Fma,
     /// Four doubles by AVX2 and FMA.
     Avx2,
     /// Eight doubles by AVX-512.
@@ -59,24 +57,18 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
-    const ALL: [Self; 5] = [
-        Self::Baseline,
-        Self::Neon,
-        Self::Fma,
-        Self::Avx2,
-        Self::Avx512,
-    ];
+    const ALL: [Self; 4] = [Self::Baseline, Self::Neon, Self::Avx2, Self::Avx512];
 
     /// Those that this processor has, the baseline first.
     pub fn available() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(|set| set.is_available())
     }
 
-    /// The one that computes `items` doubles side by side fastest: no wider than needed.
+    /// The one that computes `items` doubles side by side fastest: no wider than needed, where there is a choice.
     pub fn widest(items: usize) -> Self {
         let wanted: &[Self] = match items {
             0 | 1 => &[],
-            2 => &[Self::Fma, Self::Neon],
+            2 => &[Self::Neon, Self::Avx2],
             3 | 4 => &[Self::Avx2, Self::Neon],
             _ => &[Self::Avx512, Self::Avx2, Self::Neon],
         };
@@ -84,18 +76,10 @@ impl InstructionSet {
         found.copied().unwrap_or(Self::Baseline)
     }
 
-    /// The fastest for one double at a time, whatever else its registers hold.
-    pub fn single() -> Self {
-        let fused = Self::Fma.is_available();
-        if fused { Self::Fma } else { Self::Baseline }
-    }
-
     /// Whether this processor has it.
     pub fn is_available(self) -> bool {
         match self {
             Self::Baseline => true,
-            #[cfg(target_arch = "x86_64")]
-            Self::Fma => register::Fma::is_available(),
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => register::Avx2::is_available(),
             #[cfg(target_arch = "x86_64")]
@@ -112,7 +96,6 @@ impl fmt::Display for InstructionSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Baseline => "baseline",
-            Self::Fma => "fma",
             Self::Neon => "neon",
             Self::Avx2 => "avx2",
             Self::Avx512 => "avx512",
@@ -125,8 +108,6 @@ pub fn run<J: Job>(set: InstructionSet, job: J) -> J::Output {
     match set {
         _ if !set.is_available() => job.run::<f64>(),
         #[cfg(target_arch = "x86_64")]
-        InstructionSet::Fma => job.run::<register::Lanes<register::Fma>>(),
-        #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx2 => job.run::<register::Lanes<register::Avx2>>(),
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx512 => job.run::<register::Lanes<register::Avx512>>(),
@@ -134,4 +115,14 @@ pub fn run<J: Job>(set: InstructionSet, job: J) -> J::Output {
         InstructionSet::Neon => job.run::<register::Lanes<register::Neon>>(),
         _ => job.run::<f64>(),
     }
+}
+
+/// Does a job that has one thing to compute at a time by the fastest instructions for that: its scalar may hold several items, which
+/// are all to be the same.
+pub fn run_single<J: Job>(job: J) -> J::Output {
+    #[cfg(target_arch = "x86_64")]
+    if register::Fma::is_available() {
+        return job.run::<register::Lanes<register::Fma>>();
+    }
+    job.run::<f64>()
 }

@@ -10,7 +10,7 @@ mod right_hand_side;
 use articulated_fluid::{ArticulatedBody, Configuration, Mass};
 use dvi::{ContinuousSystem, State};
 use lie::Batch;
-use lie::lanes::{self, InstructionSet, Job};
+use lie::lanes::{self, Job};
 
 use crate::baseline::{BaselineError, MAX_STEPS, Tolerance};
 use crate::raw;
@@ -99,7 +99,7 @@ pub fn sample<M: Mass>(
         every,
         each,
     };
-    lanes::run(InstructionSet::single(), march)
+    lanes::run_single(march)
 }
 
 struct March<'a, M> {
