@@ -7,6 +7,7 @@ mod conserved;
 mod continuous_model;
 mod discrete_derivatives;
 mod flat_trees;
+mod lanes;
 mod model_errors;
 mod paper_formulas;
 mod planar;
