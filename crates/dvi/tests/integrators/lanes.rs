@@ -3,11 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dvi::{ContinuousSystem, FirstVariation, Gauss, Integrator, State, Variation};
+use dvi::{ContinuousSystem, FirstVariation, Gauss, State, Variation};
 use lie::lanes::{self, InstructionSet, Job};
-use lie::{
-    Batch, Cayley, Cotangent, Exp, LieGroup, Retraction, SO3, Scalar, Tangent, Vec3, VectorSpace,
-};
+use lie::{Batch, Cotangent, SO3, Scalar, Tangent, Vec3, VectorSpace};
 
 use crate::common::{INERTIA, LEVER, distance, top};
 
@@ -53,13 +51,13 @@ impl<const INLINE: bool> ContinuousSystem for Shaken<INLINE> {
 }
 
 /// Ten steps by these instructions, of the state and of its variations.
-fn run<const INLINE: bool, const S: usize, R: Retraction>(
+fn run<const INLINE: bool, const S: usize>(
     set: InstructionSet,
     h: f64,
 ) -> (State<SO3>, Vec<Variation<SO3>>, usize) {
     let system = Shaken::<INLINE>::default();
     let widest = system.widest.clone();
-    let gauss = Gauss::<_, S>::new(system).with_retraction::<R>();
+    let gauss = Gauss::<_, S>::new(system);
     let mut integrator = gauss.with_instructions(set);
     let (mut state, mut variations) = (top(), Variation::basis(&top().g));
     for _ in 0..10 {
@@ -87,11 +85,11 @@ fn largest_change(a: &[Variation<SO3>], b: &[Variation<SO3>]) -> f64 {
     apart.fold(0.0, f64::max)
 }
 
-fn steps_agree<const S: usize, R: Retraction>(h: f64, tolerance: f64) {
-    let (plain, varied, one) = run::<false, S, R>(InstructionSet::Baseline, h);
+fn steps_agree<const S: usize>(h: f64, tolerance: f64) {
+    let (plain, varied, one) = run::<false, S>(InstructionSet::Baseline, h);
     assert_eq!(one, 1);
     for set in InstructionSet::available() {
-        let (state, variations, widest) = run::<true, S, R>(set, h);
+        let (state, variations, widest) = run::<true, S>(set, h);
         assert_eq!(widest, lanes::run(set, Items), "{set}");
         let apart = distance(&state, &plain);
         let bent = largest_change(&variations, &varied);
@@ -100,38 +98,34 @@ fn steps_agree<const S: usize, R: Retraction>(h: f64, tolerance: f64) {
             R::NAME
         );
         assert!(apart <= tolerance, "{S} stages, {set}: {apart:e}");
-        // The variations have grown by as much as tenfold.
-        assert!(bent <= 100.0 * tolerance, "{S} stages, {set}: {bent:e}");
+        // Not relative, and the variations have grown.
+        assert!(bent <= 10.0 * tolerance, "{S} stages, {set}: {bent:e}");
         assert_eq!(state.t, plain.t);
 
         // Without `INLINE`, one stage after the other by whatever set.
-        let (state, _, widest) = run::<false, S, R>(set, h);
+        let (state, _, widest) = run::<false, S>(set, h);
         assert_eq!(widest, 1, "{set}");
         assert_eq!(state, plain, "{S} stages, {set}");
     }
 }
 
-fn all_stages_agree<R: Retraction>(h: f64, tolerance: f64) {
-    steps_agree::<1, R>(h, tolerance);
-    steps_agree::<2, R>(h, tolerance);
-    steps_agree::<3, R>(h, tolerance);
-    steps_agree::<4, R>(h, tolerance);
-    steps_agree::<5, R>(h, tolerance);
-    steps_agree::<6, R>(h, tolerance);
-    steps_agree::<7, R>(h, tolerance);
-    steps_agree::<8, R>(h, tolerance);
-}
-
 #[test]
 fn steps_are_the_same_by_all_instructions() {
     // Ten steps, each solved to a few epsilon.
-    all_stages_agree::<Cayley>(0.1, 100.0 * f64::EPSILON);
-    all_stages_agree::<Exp>(0.1, 100.0 * f64::EPSILON);
+    const ROUNDING: f64 = 20.0 * f64::EPSILON;
+    steps_agree::<1>(0.1, ROUNDING);
+    steps_agree::<2>(0.1, ROUNDING);
+    steps_agree::<3>(0.1, ROUNDING);
+    steps_agree::<4>(0.1, ROUNDING);
+    steps_agree::<5>(0.1, ROUNDING);
+    steps_agree::<6>(0.1, ROUNDING);
+    steps_agree::<7>(0.1, ROUNDING);
+    steps_agree::<8>(0.1, ROUNDING);
 }
 
 #[test]
 fn long_steps_are_the_same_by_all_instructions() {
-    // Newton's method takes over.
-    steps_agree::<2, Cayley>(0.7, 1e-12);
-    steps_agree::<5, Cayley>(0.7, 1e-12);
+    // The iteration settles slowly, or Newton's method takes over: what is left of it comes on top, over seven seconds.
+    steps_agree::<2>(0.7, 1e-12);
+    steps_agree::<5>(0.7, 1e-12);
 }
