@@ -55,7 +55,7 @@ fn fly(pilot: &Pilot) -> (f64, usize) {
 
 #[test]
 fn the_accuracy_is_reached_and_not_paid_for_twice() {
-    // A twentieth of it, between two samples, holds several steps.
+    // An eighth of it, between two samples, holds several steps.
     const DURATION: f64 = 60.0;
     let mut cost = 0;
     for accuracy in [1e-3, 1e-6, 1e-9] {
