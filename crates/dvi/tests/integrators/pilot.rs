@@ -65,8 +65,9 @@ fn the_accuracy_is_reached_and_not_paid_for_twice() {
         println!("{accuracy:e}: {error:.1e}, {evaluations} evaluations, {pilot:?}");
         assert!(error <= accuracy, "{error:e}");
         assert!(pilot.estimate <= accuracy, "{pilot:?}");
-        // A whole number of steps between two samples: one in eight is a factor of seven at order 16, and 0.4 is aimed at.
-        assert!(error >= 0.01 * accuracy, "{error:e}");
+        // A step shorter by a fifth has a thirtieth of the error at order 16; and the plain iteration may bound it before
+        // the accuracy does.
+        assert!(error >= 1e-3 * accuracy, "{error:e}");
         // Whole steps to the end.
         let steps = pilot.horizon / pilot.h;
         assert_eq!(pilot.horizon, DURATION);
