@@ -184,6 +184,8 @@ struct Trials<'a, C: ContinuousSystem> {
 
 /// States at the samples, and sweeps.
 type Samples<G> = (Vec<State<G>>, u64);
+/// Steps between two samples, and the states there.
+type Reference<G> = (usize, Vec<State<G>>);
 
 impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
     /// The first halved step that is solved at all: steps between samples, and how far to go.
@@ -203,11 +205,7 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
     }
 
     /// The finer of two runs that agree, one of twice the steps of the other.
-    fn reference(
-        &self,
-        coarse: usize,
-        horizon: f64,
-    ) -> Result<(usize, Vec<State<C::Group>>), PilotError> {
+    fn reference(&self, coarse: usize, horizon: f64) -> Result<Reference<C::Group>, PilotError> {
         let (mut steps, mut best) = (coarse, f64::INFINITY);
         let mut last: Option<Vec<State<C::Group>>> = None;
         let mut worse = 0;

@@ -110,7 +110,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         let (t, h) = (J::constant(t), J::constant(h));
         self.sweep.start_at(&self.varied.g);
         self.sweep.read(&self.unknowns);
-        self.sweep.from_end::<R>(system, (t, h));
+        self.sweep.run_from_end::<R>(system, (t, h));
         self.sweep.gather(&self.varied.mu, h);
         self.sweep.write(&mut self.unknowns);
     }

@@ -162,7 +162,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         let mut report = StepReport::default();
         for iterations in 2..=MAX_SWEEPS {
             self.sweep
-                .from_start::<R>(system, (state.t, h), &self.start);
+                .run_from_start::<R>(system, (state.t, h), &self.start);
             changes.push(self.sweep.change(h));
             if iterations == 2 {
                 self.predictor.judge(changes.now);
@@ -239,7 +239,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         let (mut report, mut best) = (StepReport::default(), f64::INFINITY);
         for iterations in 1..=MAX_NEWTON {
             self.sweep.read(&newton.x);
-            self.sweep.from_end::<R>(system, (state.t, h));
+            self.sweep.run_from_end::<R>(system, (state.t, h));
             self.sweep.gather(&state.mu, h);
             let change = self.sweep.change(h);
             best = best.min(change);

@@ -249,7 +249,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
 
     /// A sweep from a given $\pi_0$: the stages' places $c_i = h \sum_j a_{ij} \dot c_j$ and $\pi_i = \pi_0 + h \sum_j a_{ij} \dot\pi_j$,
     /// and the rates there, block by block: each block knows the new rates of those before it.
-    pub(super) fn from_start<R: Retraction>(
+    pub(super) fn run_from_start<R: Retraction>(
         &mut self,
         system: &C,
         (t, h): (S::Item, S::Item),
@@ -294,7 +294,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
 
     /// A sweep from the step's end, which follows from the rates and from $P$:
     /// $c_i = h \sum_j a_{ij} \dot c_j$ and $\pi_i = \pi_1 - h \sum_j (b_j - a_{ij}) \dot\pi_j$; all places before all rates.
-    pub(super) fn from_end<R: Retraction>(&mut self, system: &C, (t, h): (S::Item, S::Item)) {
+    pub(super) fn run_from_end<R: Retraction>(&mut self, system: &C, (t, h): (S::Item, S::Item)) {
         self.end::<R>(h);
         self.end.pi.write(&mut self.given);
         S::run(

@@ -93,10 +93,7 @@ fn steps_agree<const S: usize>(h: f64, tolerance: f64) {
         assert_eq!(widest, lanes::run(set, Items), "{set}");
         let apart = distance(&state, &plain);
         let bent = largest_change(&variations, &varied);
-        println!(
-            "{S} stages, {}, h = {h}, {set}: {apart:.1e}, {bent:.1e}",
-            R::NAME
-        );
+        println!("{S} stages, h = {h}, {set}: {apart:.1e}, {bent:.1e}");
         assert!(apart <= tolerance, "{S} stages, {set}: {apart:e}");
         // Not relative, and the variations have grown.
         assert!(bent <= 10.0 * tolerance, "{S} stages, {set}: {bent:e}");

@@ -55,7 +55,7 @@ fn fly(pilot: &Pilot) -> (f64, usize) {
 
 #[test]
 fn the_accuracy_is_reached_and_not_paid_for_twice() {
-    // A twentieth of it, between two samples, holds several steps.
+    // An eighth of it, between two samples, holds several steps.
     const DURATION: f64 = 60.0;
     let mut cost = 0;
     for accuracy in [1e-3, 1e-6, 1e-9] {
@@ -65,8 +65,9 @@ fn the_accuracy_is_reached_and_not_paid_for_twice() {
         println!("{accuracy:e}: {error:.1e}, {evaluations} evaluations, {pilot:?}");
         assert!(error <= accuracy, "{error:e}");
         assert!(pilot.estimate <= accuracy, "{pilot:?}");
-        // A whole number of steps between two samples: one in eight is a factor of seven at order 16, and 0.4 is aimed at.
-        assert!(error >= 0.01 * accuracy, "{error:e}");
+        // A step shorter by a fifth has a thirtieth of the error at order 16; and the plain iteration may bound it before
+        // the accuracy does.
+        assert!(error >= 1e-3 * accuracy, "{error:e}");
         // Whole steps to the end.
         let steps = pilot.horizon / pilot.h;
         assert_eq!(pilot.horizon, DURATION);
