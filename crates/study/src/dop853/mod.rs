@@ -2,7 +2,7 @@
 //!
 //! The same pair and step size control as [`baseline`](crate::baseline)'s, which serves any right-hand side; here the
 //! right-hand side is inlined for the processor's instructions, as the variational methods' is, so that the two are compared
-//! fairly. The state is the [raw](crate::raw) vector, which nothing keeps on the group.
+//! fairly. The state is the [`raw`] vector, which nothing keeps on the group.
 
 mod coefficients;
 mod right_hand_side;
@@ -21,6 +21,9 @@ use right_hand_side::RightHandSide;
 const FACTORS: [f64; 2] = [1.0 / 3.0, 6.0];
 /// Of the step size that would just pass.
 const SAFETY: f64 = 0.9;
+
+/// What sees samples: the time, and the [`raw`] state there.
+pub type Watcher<'a> = dyn FnMut(f64, &[f64]) + 'a;
 
 /// Where a run has ended, and what it cost.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,16 +69,16 @@ pub fn integrate<M: Mass>(
     )
 }
 
-/// The same, and `each` sees the times `every`, `2 every`, … with the [raw](crate::raw) states there: a step of their own from the
+/// The same, and `each` sees the times `every`, `2 every`, … with the [`raw`] states there: a step of their own from the
 /// last accepted state, as exact as the steps, and not among the evaluations.
 ///
 /// # Errors
 /// As [`integrate`].
-pub fn sample<M: Mass>(
-    model: &ArticulatedBody<M>,
-    start: &State<Configuration>,
+pub fn sample<'a, M: Mass>(
+    model: &'a ArticulatedBody<M>,
+    start: &'a State<Configuration>,
     duration: f64,
-    (every, each): (f64, &mut dyn FnMut(f64, &[f64])),
+    (every, each): (f64, &'a mut Watcher<'a>),
     tolerance: Tolerance,
 ) -> Result<Run, BaselineError> {
     tolerance.check()?;
@@ -109,7 +112,7 @@ struct March<'a, M> {
     tolerance: Tolerance,
     y: Vec<f64>,
     every: f64,
-    each: &'a mut dyn FnMut(f64, &[f64]),
+    each: &'a mut Watcher<'a>,
 }
 
 impl<M: Mass> Job for March<'_, M> {
