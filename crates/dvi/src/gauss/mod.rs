@@ -1,5 +1,6 @@
 //! Variational Gauss integrators of order `2 S` on a Lie group.
 
+mod extrapolation;
 mod newton;
 mod predictor;
 mod solve;

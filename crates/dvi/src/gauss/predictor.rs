@@ -1,23 +1,21 @@
 //! The first guess of a step: the velocities and forces of the step before, continued.
 
-use std::collections::VecDeque;
-
 use lie::{Batch, Retraction};
 
+use super::extrapolation::{STEPS, extrapolation};
 use super::stages::{Matrix, Stages};
 use super::sweep::Sweep;
 use super::tableau::Tableau;
 use crate::{ContinuousSystem, State};
 
-/// Steps that are remembered.
-const STEPS: usize = 3;
 /// After a first sweep that changes the rates more than this, the motion is no polynomial over several steps.
 const ROUGH: f64 = 0.05;
 
 /// Continues the velocities and forces of the last steps by a least-squares polynomial; they do not depend on the chart.
 pub(super) struct Predictor<S> {
-    /// The last steps, the oldest first; all of the same size.
-    past: VecDeque<Past<S>>,
+    /// The last steps, the oldest first; all of the same size. Only the last so many are known.
+    past: [Past<S>; STEPS],
+    known: usize,
     /// Of the last step; zero where there is none.
     h: f64,
     /// How many of them the guess is continued from, at most.
@@ -35,40 +33,42 @@ struct Past<S> {
 }
 
 impl<S: Batch<Item = f64>> Predictor<S> {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(stages: usize, dim: usize) -> Self {
+        let past = || Past {
+            xi: Stages::new(stages, dim),
+            tau: Stages::new(stages, dim),
+        };
+        let matrices = |steps| (0..steps).map(|_| Matrix::new(stages)).collect();
         Self {
-            past: VecDeque::with_capacity(STEPS),
+            past: [past(), past(), past()],
+            known: 0,
             h: 0.0,
             reach: 1,
             ratio: 0.0,
-            matrices: Vec::new(),
+            matrices: (1..=STEPS).map(matrices).collect(),
         }
     }
 
     pub(super) fn is_known(&self) -> bool {
-        !self.past.is_empty()
+        self.known > 0
     }
 
     pub(super) fn forget(&mut self) {
-        self.past.clear();
+        self.known = 0;
         self.reach = 1;
     }
 
     /// Takes over the velocities and forces of a step that was taken.
     pub(super) fn record<C: ContinuousSystem>(&mut self, h: f64, sweep: &Sweep<C, S>) {
         if h != self.h {
-            self.past.clear();
+            self.known = 0;
         }
         self.h = h;
-        let full = self.past.len() == STEPS;
-        let oldest = if full { self.past.pop_front() } else { None };
-        let mut past = oldest.unwrap_or_else(|| Past {
-            xi: sweep.xi.clone(),
-            tau: sweep.tau.clone(),
-        });
+        self.known = STEPS.min(self.known + 1);
+        self.past.rotate_left(1);
+        let [.., past] = &mut self.past;
         past.xi.copy_from(&sweep.xi);
         past.tau.copy_from(&sweep.tau);
-        self.past.push_back(past);
     }
 
     /// Places the stages of a step from `state`; false where there is no step before, and they start from the state's own velocity.
@@ -97,11 +97,12 @@ impl<S: Batch<Item = f64>> Predictor<S> {
         let ratio = h / self.h;
         if ratio != self.ratio {
             self.ratio = ratio;
-            let from = |steps| matrices(tableau, steps, ratio);
-            self.matrices = (1..=STEPS).map(from).collect();
+            self.matrices
+                .iter_mut()
+                .for_each(|m| set(m, tableau, ratio));
         }
-        let steps = self.past.len().min(self.reach);
-        let past = self.past.range(self.past.len() - steps..);
+        let steps = self.known.min(self.reach);
+        let past = &self.past[STEPS - steps..];
         S::run(
             #[inline(always)]
             || {
@@ -130,9 +131,11 @@ fn degree(stages: usize, steps: usize) -> usize {
     }
 }
 
-fn matrices<S: Batch>(tableau: &Tableau, steps: usize, ratio: f64) -> Vec<Matrix<S>> {
-    let stages = tableau.nodes.len();
-    let rows = tableau.extrapolation(steps, ratio, degree(stages, steps));
-    let matrix = |m: usize| Matrix::new(stages, |i, j| rows[i][m * stages + j]);
-    (0..steps).map(matrix).collect()
+/// Sets the matrices, one for each step that is continued.
+fn set<S: Batch>(matrices: &mut [Matrix<S>], tableau: &Tableau, ratio: f64) {
+    let (stages, steps) = (tableau.nodes.len(), matrices.len());
+    let rows = extrapolation(tableau, steps, ratio, degree(stages, steps));
+    for (m, matrix) in matrices.iter_mut().enumerate() {
+        matrix.set(stages, |i, j| rows[i][m * stages + j]);
+    }
 }

@@ -81,18 +81,26 @@ pub(super) struct Matrix<S> {
 }
 
 impl<S: Batch> Matrix<S> {
-    pub(super) fn new(stages: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
+    pub(super) fn new(stages: usize) -> Self {
         let columns = blocks::<S>(stages) * S::ITEMS;
-        let mut matrix = Self {
+        Self {
             columns,
             values: vec![S::zero(); blocks::<S>(stages) * columns],
-        };
+        }
+    }
+
+    fn with(stages: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
+        let mut matrix = Self::new(stages);
+        matrix.set(stages, entry);
+        matrix
+    }
+
+    pub(super) fn set(&mut self, stages: usize, entry: impl Fn(usize, usize) -> f64) {
         for k in 0..blocks::<S>(stages) {
             for j in 0..stages {
-                matrix.values[k * columns + j] = side_by_side(stages, k, |i| entry(i, j));
+                self.values[k * self.columns + j] = side_by_side(stages, k, |i| entry(i, j));
             }
         }
-        matrix
     }
 
     /// $o_i = s + h (e_i + \sum_j m_{ij} v_j)$ for the stages of block `k`.
@@ -156,8 +164,8 @@ pub(super) struct SplitMatrix<S> {
 impl<S: Batch> SplitMatrix<S> {
     fn new(rows: &[Vec<Split>]) -> Self {
         Self {
-            high: Matrix::new(rows.len(), |i, j| rows[i][j].high),
-            low: Matrix::new(rows.len(), |i, j| rows[i][j].low),
+            high: Matrix::with(rows.len(), |i, j| rows[i][j].high),
+            low: Matrix::with(rows.len(), |i, j| rows[i][j].low),
         }
     }
 }

@@ -73,50 +73,6 @@ impl Tableau {
             weights: weights.iter().copied().map(Split::from).collect(),
         }
     }
-
-    /// The matrix that takes values at the stages of the last `steps` steps, the oldest first, to those at the stages of the
-    /// next, `ratio` times as long: the polynomial of degree `degree` nearest to the values in the $b$-weighted mean square,
-    /// continued.
-    ///
-    /// Through all the values it would go at the highest degree, which extrapolates badly. By polynomials orthogonal on the
-    /// stages, from their three-term recurrence (G. E. Forsythe, *J. SIAM* 5, 1957).
-    pub(super) fn extrapolation(&self, steps: usize, ratio: f64, degree: usize) -> Vec<Vec<f64>> {
-        let weights = self.weights.iter().cycle().map(|b| b.high);
-        let past = (0..steps).flat_map(|m| self.nodes.iter().map(move |c| c + m as f64));
-        let (x, w): (Vec<f64>, Vec<f64>) = past.zip(weights).unzip();
-        let at = |c: &f64| steps as f64 + ratio * c;
-        let y: Vec<f64> = self.nodes.iter().map(at).collect();
-        let dot = |p: &[f64], q: &[f64]| -> f64 {
-            w.iter().zip(p).zip(q).map(|((w, p), q)| w * p * q).sum()
-        };
-        let mut rows = vec![vec![0.0; x.len()]; y.len()];
-        // A polynomial and the one before it, at the stages of the past and of the next step.
-        let (mut p, mut q) = (vec![1.0; x.len()], vec![1.0; y.len()]);
-        let (mut p_last, mut q_last) = (vec![0.0; x.len()], vec![0.0; y.len()]);
-        let mut size = 0.0;
-        for _ in 0..=degree.min(x.len() - 1) {
-            let square = dot(&p, &p);
-            for (row, q) in rows.iter_mut().zip(&q) {
-                for ((entry, p), w) in row.iter_mut().zip(&p).zip(&w) {
-                    *entry += w * p * q / square;
-                }
-            }
-            let moved: Vec<f64> = x.iter().zip(&p).map(|(x, p)| x * p).collect();
-            let (a, b) = (
-                dot(&moved, &p) / square,
-                if size == 0.0 { 0.0 } else { square / size },
-            );
-            size = square;
-            let next = |x: &[f64], p: &[f64], last: &[f64]| -> Vec<f64> {
-                let terms = x.iter().zip(p).zip(last);
-                terms.map(|((x, p), last)| (x - a) * p - b * last).collect()
-            };
-            let (p_next, q_next) = (next(&x, &p, &p_last), next(&y, &q, &q_last));
-            (p_last, p) = (p, p_next);
-            (q_last, q) = (q, q_next);
-        }
-        rows
-    }
 }
 
 const ONE: Quad = Quad(1.0, 0.0);
@@ -202,18 +158,5 @@ mod tests {
     #[test]
     fn order_conditions() {
         (1..=8).for_each(conditions);
-    }
-
-    #[test]
-    fn a_polynomial_is_extrapolated_exactly() {
-        let tableau = Tableau::gauss(6);
-        let cubic = |x: f64| 1.0 - 2.0 * x + 0.5 * x.powi(3);
-        for ratio in [1.0, 0.5, -1.0] {
-            let matrix = tableau.extrapolation(1, ratio, 3);
-            for (row, c) in matrix.iter().zip(&tableau.nodes) {
-                let terms = row.iter().zip(&tableau.nodes).map(|(w, c)| w * cubic(*c));
-                assert!((terms.sum::<f64>() - cubic(1.0 + ratio * c)).abs() < 1e-13);
-            }
-        }
     }
 }

@@ -36,7 +36,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         let dim = g.zero_dual().dim();
         Self {
             sweep: Sweep::new(system, tableau, g),
-            predictor: Predictor::new(),
+            predictor: Predictor::new(tableau.nodes.len(), dim),
             update: Update::new(g),
             start: vec![0.0; dim],
             wanted: vec![0.0; dim],
