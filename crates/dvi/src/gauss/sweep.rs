@@ -352,8 +352,17 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         );
     }
 
-    #[inline(always)]
+    /// The rates at the places of block `k`. A function of its own, so that the system's is compiled into one place.
+    #[inline(never)]
     fn evaluate_block<R: Retraction>(&mut self, system: &C, (t, h): (S::Item, S::Item), k: usize) {
+        S::run(
+            #[inline(always)]
+            || self.find_rates::<R>(system, (t, h), k),
+        );
+    }
+
+    #[inline(always)]
+    fn find_rates<R: Retraction>(&mut self, system: &C, (t, h): (S::Item, S::Item), k: usize) {
         let block = &mut self.block;
         block.c.read(self.c.block(k));
         block.pi.read(self.pi.block(k));
