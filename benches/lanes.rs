@@ -78,7 +78,16 @@ fn evaluate<S: Batch>(
 
 #[divan::bench(args = InstructionSet::available())]
 fn fish_x1000(bencher: Bencher, set: InstructionSet) {
-    let (model, state) = chain(3);
+    evaluations(bencher, set, 3);
+}
+
+#[divan::bench(args = InstructionSet::available())]
+fn eel_x1000(bencher: Bencher, set: InstructionSet) {
+    evaluations(bencher, set, 30);
+}
+
+fn evaluations(bencher: Bencher, set: InstructionSet, bodies: usize) {
+    let (model, state) = chain(bodies);
     let job = Evaluate {
         model: &model,
         state: &state,
@@ -101,15 +110,4 @@ fn fish_gauss_8_x40(bencher: Bencher, set: InstructionSet) {
         }
         black_box(state)
     });
-}
-
-#[divan::bench(args = InstructionSet::available())]
-fn eel_x1000(bencher: Bencher, set: InstructionSet) {
-    let (model, state) = chain(30);
-    let job = Evaluate {
-        model: &model,
-        state: &state,
-        bencher,
-    };
-    lanes::run(set, job);
 }

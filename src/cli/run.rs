@@ -80,10 +80,9 @@ impl Args {
                 pilot: None,
             });
         };
-        let bar = progress::waiting("choosing stages and step");
+        let _spinner = progress::waiting("choosing stages and step");
         let model = &loaded.smallest.model;
         let pilot = accuracy::pilot(model, &loaded.start, self.until, accuracy)?;
-        bar.finish_and_clear();
         Ok(Chosen {
             method: accuracy::method(&pilot),
             step: pilot.h,

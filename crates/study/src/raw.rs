@@ -2,9 +2,13 @@
 //!
 //! Layout: $R_0$ row by row, $x$, $R_1, \dots, R_n$, then $p_0, p_x, p_1, \dots, p_n$.
 
+mod right_hand_side;
+
 use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::{ContinuousSystem, State};
-use lie::{LieGroup, Mat3, Rn, SO3, Tangent, VectorSpace};
+use dvi::State;
+use lie::{Batch, LieGroup, Mat3, Rn, SO3, VectorSpace};
+
+pub(crate) use right_hand_side::RightHandSide;
 
 /// The state as a vector; `t` is left out.
 pub fn pack(state: &State<Configuration>) -> Vec<f64> {
@@ -61,44 +65,20 @@ pub(crate) fn fill(state: &mut State<Configuration>, y: &[f64]) {
     state.mu.read(mu);
 }
 
-fn rotation(entries: &[f64]) -> SO3 {
-    let row = |i: usize| [0, 1, 2].map(|j| entries[3 * i + j]);
+#[inline(always)]
+fn rotation<S: Batch<Item = f64>>(entries: &[f64]) -> SO3<S> {
+    let entry = |i: usize, j: usize| S::splat(entries[3 * i + j]);
+    let row = |i: usize| [entry(i, 0), entry(i, 1), entry(i, 2)];
     SO3::from_matrix_unchecked(Mat3([row(0), row(1), row(2)]))
 }
 
 /// Hamilton's equations (18)–(20) with $\dot R_i = R_i \hat\Omega_i$, (15), on raw entries.
 ///
-/// The closure takes `t`, the vector and where to put its derivative, both as long as [`pack`] makes them.
+/// The closure takes `t`, on which nothing depends, the vector and where to put its derivative, both as long as [`pack`] makes them.
 pub fn right_hand_side(
     model: &ArticulatedBody,
     start: &State<Configuration>,
 ) -> impl FnMut(f64, &[f64], &mut [f64]) + use<> {
-    let model = model.clone();
-    let mut state = start.clone();
-    let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
-    let mut workspace = ContinuousSystem::workspace::<f64>(&model, &state.g);
-    move |t, y, dy| {
-        fill(&mut state, y);
-        let (g, mu) = (&state.g, &state.mu);
-        model.velocity_and_force::<f64>(t, g, mu, &mut workspace, &mut xi, &mut tau);
-        // Factor by factor: the bracket of the whole would allocate.
-        tau.0.add_scaled(1.0, &SO3::coadjoint_bracket(&xi.0, &mu.0));
-        for ((tau, omega), p) in tau.2.iter_mut().zip(xi.2.iter()).zip(mu.2.iter()) {
-            tau.add_scaled(1.0, &SO3::coadjoint_bracket(omega, p));
-        }
-        let (d_r0, rest) = dy.split_at_mut(9);
-        let (d_x, rest) = rest.split_at_mut(3);
-        let (d_r, d_mu) = rest.split_at_mut(9 * state.g.2.len());
-        derivative(&g.0, &xi.0, d_r0);
-        d_x.copy_from_slice(&xi.1.0);
-        for ((r, omega), d_r) in g.2.iter().zip(xi.2.iter()).zip(d_r.chunks_exact_mut(9)) {
-            derivative(r, omega, d_r);
-        }
-        tau.write(d_mu);
-    }
-}
-
-fn derivative(r: &SO3, omega: &Tangent<3>, out: &mut [f64]) {
-    let rate = *r.matrix() * omega.vec3().hat();
-    out.copy_from_slice(rate.0.as_flattened());
+    let mut rates = RightHandSide::<_, f64>::new(model, start);
+    move |_, y, dy| rates.evaluate(y, dy)
 }

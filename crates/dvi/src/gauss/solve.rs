@@ -3,6 +3,7 @@
 use lie::{Batch, Retraction, VectorSpace};
 
 use super::newton::SweepNewton;
+use super::sweep::Side;
 use super::tableau::Tableau;
 use super::work::Work;
 use crate::numbers::{larger, relative};
@@ -152,7 +153,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     ) -> Result<Ended, Failure> {
         self.guess::<R>(method, (state, h))?;
         let system = method.0;
-        self.sweep.round_from_start();
+        self.sweep.round(Side::Start);
         state.mu.write(&mut self.start);
         for (start, drift) in self.start.iter_mut().zip(&self.drift) {
             *start += drift;
@@ -232,7 +233,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         tolerance: f64,
     ) -> Ended {
         self.sweep.gather(&state.mu, h);
-        self.sweep.round_from_end();
+        self.sweep.round(Side::End);
         self.sweep.write(&mut newton.x);
         let (mut last, mut damping) = (f64::INFINITY, 1.0);
         let mut stale = !newton.fits(h);

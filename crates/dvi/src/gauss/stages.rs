@@ -98,7 +98,8 @@ impl<S: Batch> Matrix<S> {
     pub(super) fn set(&mut self, stages: usize, entry: impl Fn(usize, usize) -> f64) {
         for k in 0..blocks::<S>(stages) {
             for j in 0..stages {
-                self.values[k * self.columns + j] = side_by_side(stages, k, |i| entry(i, j));
+                self.values[k * self.columns + j] =
+                    side_by_side(k, |i| entry(i.min(stages - 1), j));
             }
         }
     }
@@ -146,11 +147,11 @@ impl<S: Batch> Matrix<S> {
     }
 }
 
-/// An entry for each stage of block `k`.
-fn side_by_side<S: Batch>(stages: usize, k: usize, entry: impl Fn(usize) -> f64) -> S {
+/// An entry for each place of block `k`, those past the last stage too.
+fn side_by_side<S: Batch>(k: usize, entry: impl Fn(usize) -> f64) -> S {
     let mut values = [S::zero()];
     for (lane, item) in S::items_mut(&mut values).iter_mut().enumerate() {
-        *item = S::Item::from_f64(entry((k * S::ITEMS + lane).min(stages - 1)));
+        *item = S::Item::from_f64(entry(k * S::ITEMS + lane));
     }
     values[0]
 }
@@ -180,22 +181,15 @@ impl<S: Batch> Row<S> {
     fn new(row: &[Split]) -> Self {
         let stages = row.len();
         // Repeated stages do not count twice.
-        let only_once = |k: usize, part: &dyn Fn(&Split) -> f64| {
-            let mut values = [S::zero()];
-            for (lane, item) in S::items_mut(&mut values).iter_mut().enumerate() {
-                let weight = row.get(k * S::ITEMS + lane).map_or(0.0, part);
-                *item = S::Item::from_f64(weight);
-            }
-            values[0]
-        };
-        let all = |part: &dyn Fn(&Split) -> f64| {
+        let once = |part: fn(&Split) -> f64| {
+            let weight = |i| row.get(i).map_or(0.0, part);
             (0..blocks::<S>(stages))
-                .map(|k| only_once(k, part))
+                .map(|k| side_by_side(k, weight))
                 .collect()
         };
         Self {
-            high: all(&|x| x.high),
-            low: all(&|x| x.low),
+            high: once(|x| x.high),
+            low: once(|x| x.low),
         }
     }
 
@@ -230,7 +224,7 @@ pub(super) struct Coefficients<S> {
 impl<S: Batch> Coefficients<S> {
     pub(super) fn new(tableau: &Tableau) -> Self {
         let stages = tableau.nodes.len();
-        let node = |k| side_by_side(stages, k, |i| tableau.nodes[i]);
+        let node = |k| side_by_side(k, |i: usize| tableau.nodes[i.min(stages - 1)]);
         Self {
             nodes: (0..blocks::<S>(stages)).map(node).collect(),
             weights: Row::new(&tableau.weights),

@@ -94,9 +94,16 @@ impl<G: RealGroup, S: Scalar> End<G, S> {
     }
 }
 
+/// Where the momenta of the stages are summed from.
+#[derive(Clone, Copy)]
+pub(super) enum Side {
+    Start,
+    End,
+}
+
 /// The stages of a step and its end.
 ///
-/// The stages of a sweep do not need one another: they are evaluated side by side, as many as `S` has items.
+/// The stages of a block do not need one another: they are evaluated side by side, as many as `S` has items.
 pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     stages: usize,
     coefficients: Coefficients<S>,
@@ -110,7 +117,6 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     /// What the coefficients' rounding leaves out of $\sum_j a_{ij} \dot c_j$ and of the sum of momenta.
     low_c: Stages<S>,
     low_pi: Stages<S>,
-    zero: Stages<S>,
     /// The momentum that the stages' are summed from.
     given: Vec<S::Item>,
     nothing: Vec<S::Item>,
@@ -194,8 +200,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             pi_dot: zero.clone(),
             force: zero.clone(),
             low_c: zero.clone(),
-            low_pi: zero.clone(),
-            zero,
+            low_pi: zero,
             given: vec![S::Item::zero(); dim],
             nothing: vec![S::Item::zero(); dim],
             end: End::new(g),
@@ -217,32 +222,23 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         C::Group::convert_into::<S::Item, S>(g, S::splat, &mut self.g);
     }
 
-    /// Finds what the coefficients' rounding leaves out, from rates that are nearly right, for momenta summed from the start.
-    pub(super) fn round_from_start(&mut self) {
-        let Coefficients { forward, .. } = &self.coefficients;
-        S::run(
-            #[inline(always)]
-            || {
-                self.low_c.set_zero();
-                forward.low.add(&mut self.low_c, &self.c_dot);
-                self.low_pi.set_zero();
-                forward.low.add(&mut self.low_pi, &self.pi_dot);
-            },
-        );
-    }
-
-    /// The same, for momenta summed from the end.
-    pub(super) fn round_from_end(&mut self) {
+    /// Finds what the coefficients' rounding leaves out, from rates that are nearly right, for momenta summed from the start or from
+    /// the end of the step.
+    pub(super) fn round(&mut self, from: Side) {
         let Coefficients {
             forward, backward, ..
         } = &self.coefficients;
+        let momenta = match from {
+            Side::Start => forward,
+            Side::End => backward,
+        };
         S::run(
             #[inline(always)]
             || {
                 self.low_c.set_zero();
                 forward.low.add(&mut self.low_c, &self.c_dot);
                 self.low_pi.set_zero();
-                backward.low.add(&mut self.low_pi, &self.pi_dot);
+                momenta.low.add(&mut self.low_pi, &self.pi_dot);
             },
         );
     }
@@ -418,14 +414,19 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         for d in 0..at.dim() {
             at.set(d, S::splat(mu.get(d)));
         }
-        system.velocity_and_force(S::splat(t), &self.g, at, &mut self.workspace, xi, tau);
+        let (g, workspace) = (&self.g, &mut self.workspace);
+        S::run(
+            #[inline(always)]
+            || system.velocity_and_force(S::splat(t), g, at, workspace, xi, tau),
+        );
         for k in 0..self.xi.blocks() {
             xi.write(self.xi.block_mut(k));
             tau.write(self.tau.block_mut(k));
         }
     }
 
-    /// The stages' places from velocities and forces alone: $\dot c = \mathrm d\tau_c^{-1} \xi$ twice over, and the momenta by transport.
+    /// The stages' places from velocities and forces alone: $\dot c = \mathrm d\tau_c^{-1} \xi$ a few times over, and the
+    /// momenta by transport.
     pub(super) fn place_by_velocities<R: Retraction>(
         &mut self,
         h: S::Item,
@@ -435,7 +436,8 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         S::run(
             #[inline(always)]
             || {
-                self.low_c.copy_from(&self.zero);
+                self.low_c.set_zero();
+                self.low_pi.set_zero();
                 self.c_dot.copy_from(&self.xi);
                 for _ in 0..CHART_SWEEPS {
                     for k in 0..self.c.blocks() {
@@ -449,7 +451,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
                 }
                 for k in 0..self.c.blocks() {
                     let forward = &self.coefficients.forward.high;
-                    let (pi, zero) = (&mut self.pi, &self.zero);
+                    let (pi, zero) = (&mut self.pi, &self.low_pi);
                     forward.combine(k, pi, (h, zero), &self.force, &self.given);
                     self.transport_momentum::<R>(k);
                 }

@@ -33,7 +33,6 @@ fn cost(
         model,
         start,
         until,
-        ..
     } = problem;
     match contender {
         Contender::Dp853 => {
@@ -58,20 +57,16 @@ pub(super) fn sample(
         model,
         start,
         until,
-        ..
     } = problem;
     let every = until / samples as f64;
-    let unpack = |t: f64, y: &[f64]| raw::unpack(t, y);
     match contender {
         Contender::Dp853 => {
             let mut states = vec![start.clone()];
-            let mut each = |t: f64, y: &[f64]| states.extend(unpack(t, y));
+            let mut each = |t: f64, y: &[f64]| states.extend(raw::unpack(t, y));
             // The last sample is the end, which rounding may put past it.
-            let every = (
-                every * (1.0 - f64::EPSILON),
-                &mut each as &mut dyn FnMut(f64, &[f64]),
-            );
-            dop853::sample(model, start, *until, every, Tolerance::uniform(tolerance))?;
+            let every = every * (1.0 - f64::EPSILON);
+            let tolerance = Tolerance::uniform(tolerance);
+            dop853::sample(model, start, *until, (every, &mut each), tolerance)?;
             Ok(states)
         }
         Contender::Dp54 => {
@@ -80,7 +75,7 @@ pub(super) fn sample(
                 .t
                 .iter()
                 .zip(&run.y)
-                .filter_map(|(t, y)| unpack(*t, y))
+                .filter_map(|(t, y)| raw::unpack(*t, y))
                 .collect())
         }
         _ => Err(contender.misused(Setting::Tolerance(tolerance))),

@@ -5,7 +5,6 @@
 //! fairly. The state is the [`raw`] vector, which nothing keeps on the group.
 
 mod coefficients;
-mod right_hand_side;
 
 use articulated_fluid::{ArticulatedBody, Configuration, Mass};
 use dvi::{ContinuousSystem, State};
@@ -13,9 +12,8 @@ use lie::Batch;
 use lie::lanes::{self, Job};
 
 use crate::baseline::{BaselineError, MAX_STEPS, Tolerance};
-use crate::raw;
+use crate::raw::{self, RightHandSide};
 use coefficients::{ERROR_3, ERROR_5, Row, STAGES, WEIGHTS};
-use right_hand_side::RightHandSide;
 
 /// A step becomes at least and at most so many times as long.
 const FACTORS: [f64; 2] = [1.0 / 3.0, 6.0];
@@ -176,8 +174,8 @@ impl<M: Mass> Job for March<'_, M> {
 }
 
 /// The stages of a step.
-struct Pair<'a, M, S: Batch<Item = f64>> {
-    rates: RightHandSide<'a, M, S>,
+struct Pair<M, S: Batch<Item = f64>> {
+    rates: RightHandSide<M, S>,
     tolerance: Tolerance,
     y: Vec<f64>,
     next: Vec<f64>,
@@ -188,8 +186,8 @@ struct Pair<'a, M, S: Batch<Item = f64>> {
     refused: bool,
 }
 
-impl<'a, M: Mass, S: Batch<Item = f64>> Pair<'a, M, S> {
-    fn new(mut rates: RightHandSide<'a, M, S>, tolerance: Tolerance, y: Vec<f64>) -> Self {
+impl<M: Mass, S: Batch<Item = f64>> Pair<M, S> {
+    fn new(mut rates: RightHandSide<M, S>, tolerance: Tolerance, y: Vec<f64>) -> Self {
         let mut k = [const { Vec::new() }; 12].map(|_: Vec<f64>| vec![0.0; y.len()]);
         rates.evaluate(&y, &mut k[0]);
         let zero = vec![0.0; y.len()];

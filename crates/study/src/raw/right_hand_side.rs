@@ -2,27 +2,27 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration, Mass};
 use dvi::{ContinuousSystem, State};
-use lie::{
-    AlgebraOver, Batch, DualOver, LieGroup, Mat3, RealGroup, SO3, Tangent, Vec3, VectorSpace,
-};
+use lie::{AlgebraOver, Batch, DualOver, LieGroup, RealGroup, SO3, Tangent, Vec3, VectorSpace};
+
+use super::rotation;
 
 /// (18)–(20) with $\dot R_i = R_i \hat\Omega_i$, (15); one state in all items of `S`.
-pub(super) struct RightHandSide<'a, M, S: Batch<Item = f64>> {
-    model: &'a ArticulatedBody<M>,
+pub(crate) struct RightHandSide<M, S: Batch<Item = f64>> {
+    model: ArticulatedBody<M>,
     g: Configuration<S>,
     mu: DualOver<Configuration, S>,
     xi: AlgebraOver<Configuration, S>,
     tau: DualOver<Configuration, S>,
     workspace: articulated_fluid::Elimination<S>,
     momenta: Vec<S>,
-    pub(super) evaluations: usize,
+    pub(crate) evaluations: usize,
 }
 
-impl<'a, M: Mass, S: Batch<Item = f64>> RightHandSide<'a, M, S> {
-    pub(super) fn new(model: &'a ArticulatedBody<M>, start: &State<Configuration>) -> Self {
+impl<M: Mass, S: Batch<Item = f64>> RightHandSide<M, S> {
+    pub(crate) fn new(model: &ArticulatedBody<M>, start: &State<Configuration>) -> Self {
         let g = start.g.lift::<S>();
         Self {
-            model,
+            model: model.clone(),
             mu: g.zero_dual(),
             xi: g.zero_algebra(),
             tau: g.zero_dual(),
@@ -35,7 +35,7 @@ impl<'a, M: Mass, S: Batch<Item = f64>> RightHandSide<'a, M, S> {
 
     /// The rates of `y`, both as [`pack`](crate::raw::pack) lays them out.
     #[inline(never)]
-    pub(super) fn evaluate(&mut self, y: &[f64], dy: &mut [f64]) {
+    pub(crate) fn evaluate(&mut self, y: &[f64], dy: &mut [f64]) {
         self.evaluations += 1;
         S::run(
             #[inline(always)]
@@ -99,18 +99,6 @@ impl<'a, M: Mass, S: Batch<Item = f64>> RightHandSide<'a, M, S> {
             turned(tau.vec3(), mu.vec3(), omega, d_mu);
         }
     }
-}
-
-#[inline(always)]
-fn rotation<S: Batch<Item = f64>>(y: &[f64]) -> SO3<S> {
-    let row = |i: usize| {
-        [
-            S::splat(y[3 * i]),
-            S::splat(y[3 * i + 1]),
-            S::splat(y[3 * i + 2]),
-        ]
-    };
-    SO3::from_matrix_unchecked(Mat3([row(0), row(1), row(2)]))
 }
 
 /// $R \hat\Omega$: the rows of $R$, each crossed with $\Omega$.
