@@ -78,7 +78,9 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
 
     #[inline(always)]
     fn compose(&self, h: &Self) -> Self {
-        Self(core::array::from_fn(|i| self.0[i] + h.0[i]))
+        let mut sum = *self;
+        sum.0.iter_mut().zip(h.0).for_each(|(x, y)| *x += y);
+        sum
     }
 
     #[inline(always)]
@@ -170,6 +172,11 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
         _: &Tangent<N, S>,
     ) -> Cotangent<N, S> {
         Cotangent::zero()
+    }
+
+    #[inline(always)]
+    fn inverse_coadjoint_into(&self, mu: &Cotangent<N, S>, out: &mut Cotangent<N, S>) {
+        *out = *mu;
     }
 
     #[inline(always)]

@@ -182,7 +182,7 @@ impl<S: Scalar> SO3<S> {
     /// $1 / (1 + |\xi|^2/4)$, the Cayley map's factor.
     #[inline(always)]
     fn cayley_scale(xi: Vec3<S>) -> S {
-        S::one() / (S::one() + xi.norm_squared() * S::from_f64(0.25))
+        S::one() / xi.norm_squared().mul_add(S::from_f64(0.25), S::one())
     }
 }
 
@@ -339,9 +339,13 @@ impl<S: Scalar> LieGroup for SO3<S> {
         let w = xi.vec3();
         let scale = Self::cayley_scale(w);
         let half = S::from_f64(0.5) * scale;
-        let diagonal = S::one() - half * w.norm_squared();
-        let symmetric = (w * half).outer(w) + Mat3::diagonal([diagonal; 3]);
-        Self::from_matrix_unchecked((w * scale).hat() + symmetric)
+        let diagonal = half.neg_mul_add(w.norm_squared(), S::one());
+        let ([x, y, z], [p, q, r], [a, b, c]) = ((w * half).0, w.0, (w * scale).0);
+        Self::from_matrix_unchecked(Mat3([
+            [x.mul_add(p, diagonal), x.mul_add(q, -c), x.mul_add(r, b)],
+            [y.mul_add(p, c), y.mul_add(q, diagonal), y.mul_add(r, -a)],
+            [z.mul_add(p, -b), z.mul_add(q, a), z.mul_add(r, diagonal)],
+        ]))
     }
 
     #[inline(always)]
@@ -357,16 +361,16 @@ impl<S: Scalar> LieGroup for SO3<S> {
     /// $\frac{1}{1 + |\xi|^2/4} \left(1 - \frac12 \hat\xi\right)$.
     #[inline(always)]
     fn dcay(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
-        let (w, eta) = (xi.vec3(), eta.vec3());
-        ((eta - w.cross(eta) * S::from_f64(0.5)) * Self::cayley_scale(w)).into()
+        Self::dcay_dual(&-*xi, &eta.vec3().into()).vec3().into()
     }
 
     /// $1 + \frac12 \hat\xi + \frac14 \xi \xi^T$.
     #[inline(always)]
     fn dcay_inv(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
         let (w, eta) = (xi.vec3(), eta.vec3());
-        let (half, quarter) = (S::from_f64(0.5), S::from_f64(0.25));
-        (eta + w.cross(eta) * half + w * (w.dot(eta) * quarter)).into()
+        let half = w * S::from_f64(0.5);
+        let along = half.dot(eta) * S::from_f64(0.5);
+        (eta + half.cross(eta)).plus(along, w).into()
     }
 
     /// $\mathrm d\exp_{-\xi}$ as a matrix, for $\hat\xi^T = -\hat\xi$.
@@ -396,16 +400,20 @@ impl<S: Scalar> LieGroup for SO3<S> {
         (eta.cross(mu) * S::from_f64(0.5) + products * factor + w * (along + along)).into()
     }
 
-    /// $\frac{1}{1 + |\xi|^2/4} \left(1 + \frac12 \hat\xi\right)$: the map at $-\xi$.
+    /// $\frac{1}{1 + |\xi|^2/4} \left(1 + \frac12 \hat\xi\right)$.
     #[inline(always)]
     fn dcay_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
-        Self::dcay(&-*xi, &mu.vec3().into()).vec3().into()
+        let (w, mu) = (xi.vec3(), mu.vec3());
+        ((mu + (w * S::from_f64(0.5)).cross(mu)) * Self::cayley_scale(w)).into()
     }
 
-    /// $1 - \frac12 \hat\xi + \frac14 \xi \xi^T$: the map at $-\xi$.
+    /// $1 - \frac12 \hat\xi + \frac14 \xi \xi^T$.
     #[inline(always)]
     fn dcay_inv_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
-        Self::dcay_inv(&-*xi, &mu.vec3().into()).vec3().into()
+        let (w, mu) = (xi.vec3(), mu.vec3());
+        let half = w * S::from_f64(0.5);
+        let along = half.dot(mu) * S::from_f64(0.5);
+        (mu + mu.cross(half)).plus(along, w).into()
     }
 
     /// $\frac12 \eta \times \mu + \frac14 (\mu (\xi\cdot\eta) + \eta (\xi\cdot\mu))$.
@@ -416,8 +424,9 @@ impl<S: Scalar> LieGroup for SO3<S> {
         eta: &Tangent<3, S>,
     ) -> Cotangent<3, S> {
         let (w, mu, eta) = (xi.vec3(), mu.vec3(), eta.vec3());
-        let products = mu * w.dot(eta) + eta * w.dot(mu);
-        (eta.cross(mu) * S::from_f64(0.5) + products * S::from_f64(0.25)).into()
+        let (half, quarter) = (eta * S::from_f64(0.5), w * S::from_f64(0.25));
+        let turned = half.cross(mu).plus(quarter.dot(eta), mu);
+        turned.plus(quarter.dot(mu), eta).into()
     }
 
     /// By [the quaternion](Self::to_quaternion), which is accurate at every angle.

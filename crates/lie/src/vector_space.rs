@@ -132,6 +132,14 @@ macro_rules! coordinate_vector {
             fn set(&mut self, i: usize, value: S) {
                 self.0[i] = value;
             }
+            #[inline(always)]
+            fn write(&self, out: &mut [S]) {
+                out[..N].copy_from_slice(&self.0);
+            }
+            #[inline(always)]
+            fn read(&mut self, from: &[S]) {
+                self.0.copy_from_slice(&from[..N]);
+            }
         }
 
         impl<const N: usize, S: Scalar> $name<N, S> {

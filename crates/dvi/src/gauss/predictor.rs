@@ -67,8 +67,7 @@ impl<S: Batch<Item = f64>> Predictor<S> {
         self.known = STEPS.min(self.known + 1);
         self.past.rotate_left(1);
         let [.., past] = &mut self.past;
-        past.xi.copy_from(&sweep.xi);
-        past.tau.copy_from(&sweep.tau);
+        sweep.write_velocities(&mut past.xi, &mut past.tau);
     }
 
     /// Places the stages of a step from `state`; false where there is no step before, and they start from the state's own velocity.

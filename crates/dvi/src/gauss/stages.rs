@@ -136,14 +136,28 @@ impl<S: Batch> Matrix<S> {
     fn add_products(&self, k: usize, out: &mut [S], values: &Stages<S>) {
         let row = &self.values[k * self.columns..][..self.columns];
         for (l, weights) in row.chunks_exact(S::ITEMS).enumerate() {
-            let items = S::items(values.block(l)).chunks_exact(S::ITEMS);
-            for (out, items) in out.iter_mut().zip(items) {
-                let products = weights.iter().zip(items);
-                *out = products.fold(*out, |sum, (weight, item)| {
-                    S::splat(*item).mul_add(*weight, sum)
-                });
+            let items = S::items(values.block(l));
+            match S::ITEMS {
+                1 => add_columns::<S, 1>(out, weights, items),
+                2 => add_columns::<S, 2>(out, weights, items),
+                4 => add_columns::<S, 4>(out, weights, items),
+                _ => add_columns::<S, 8>(out, weights, items),
             }
         }
+    }
+}
+
+/// Adds $\sum_j w_j v_j$ for the `N` stages of a block, its weights held in registers.
+#[inline(always)]
+fn add_columns<S: Batch, const N: usize>(out: &mut [S], weights: &[S], items: &[S::Item]) {
+    let mut held = [S::zero(); N];
+    held.copy_from_slice(weights);
+    for (out, items) in out.iter_mut().zip(items.as_chunks::<N>().0) {
+        let mut sum = *out;
+        for j in 0..N {
+            sum = S::splat(items[j]).mul_add(held[j], sum);
+        }
+        *out = sum;
     }
 }
 
@@ -193,17 +207,21 @@ impl<S: Batch> Row<S> {
         }
     }
 
-    /// $h \sum_i b_i v_i$.
+    /// $h \sum_i b_i v_i$, with `sums` to add up in.
     #[inline(always)]
-    pub(super) fn combine(&self, out: &mut [S::Item], h: S::Item, values: &Stages<S>) {
-        for (d, out) in out.iter_mut().enumerate() {
-            let mut sum = S::zero();
-            for (k, weight) in self.low.iter().enumerate() {
-                sum = weight.mul_add(values.block(k)[d], sum);
+    pub(super) fn combine(
+        &self,
+        (out, sums): (&mut [S::Item], &mut [S]),
+        h: S::Item,
+        values: &Stages<S>,
+    ) {
+        for (k, (high, low)) in self.high.iter().zip(&self.low).enumerate() {
+            for (sum, value) in sums.iter_mut().zip(values.block(k)) {
+                let before = if k == 0 { S::zero() } else { *sum };
+                *sum = high.mul_add(*value, low.mul_add(*value, before));
             }
-            for (k, weight) in self.high.iter().enumerate() {
-                sum = weight.mul_add(values.block(k)[d], sum);
-            }
+        }
+        for (out, sum) in out.iter_mut().zip(sums) {
             *out = h * sum.sum();
         }
     }

@@ -123,7 +123,7 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     pub(super) end: End<C::Group, S::Item>,
     /// A change of the force, at every stage; only for variations.
     pub(super) extra_force: Option<DualOver<C::Group, S>>,
-    block: Block<C::Group, S>,
+    blocks: Vec<Block<C::Group, S>>,
     /// $g_k$.
     g: Over<C::Group, S>,
     workspace: C::Workspace<S>,
@@ -200,12 +200,12 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             pi_dot: zero.clone(),
             force: zero.clone(),
             low_c: zero.clone(),
-            low_pi: zero,
+            low_pi: zero.clone(),
             given: vec![S::Item::zero(); dim],
             nothing: vec![S::Item::zero(); dim],
             end: End::new(g),
             extra_force: None,
-            block: Block::new(&lifted),
+            blocks: (0..zero.blocks()).map(|_| Block::new(&lifted)).collect(),
             workspace: system.workspace::<S>(&lifted),
             g: lifted,
             change: Change::none(),
@@ -280,7 +280,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
                 self.find_end::<R>(h);
                 self.end.pi.write(start);
                 let weights = &self.coefficients.weights;
-                weights.combine(&mut self.given, h, &self.pi_dot);
+                weights.combine((&mut self.given, &mut self.rates), h, &self.pi_dot);
                 for (start, sum) in start.iter_mut().zip(&self.given) {
                     *start -= *sum;
                 }
@@ -326,7 +326,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     #[inline(always)]
     fn find_end<R: Retraction>(&mut self, h: S::Item) {
         let (weights, end) = (&self.coefficients.weights, &mut self.end);
-        weights.combine(&mut self.given, h, &self.c_dot);
+        weights.combine((&mut self.given, &mut self.rates), h, &self.c_dot);
         end.c.read(&self.given);
         Over::<C::Group, S::Item>::chart_leave_into::<R>(
             &end.c,
@@ -359,7 +359,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
 
     #[inline(always)]
     fn find_rates<R: Retraction>(&mut self, system: &C, (t, h): (S::Item, S::Item), k: usize) {
-        let block = &mut self.block;
+        let block = &mut self.blocks[k];
         block.c.read(self.c.block(k));
         block.pi.read(self.pi.block(k));
         Over::<C::Group, S>::chart_enter_into::<R>(
@@ -375,9 +375,6 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             block.tau.add_scaled(S::one(), force);
         }
         block.rates::<R>();
-        block.xi.write(self.xi.block_mut(k));
-        block.tau.write(self.tau.block_mut(k));
-        block.force.write(self.force.block_mut(k));
         let (change, rates) = (&mut self.change, &mut self.rates);
         block.c_dot.write(rates);
         change.replace(|c| &mut c.c_dot, self.c_dot.block_mut(k), rates, rates);
@@ -401,7 +398,10 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     #[inline(always)]
     fn find_momentum(&mut self, h: S::Item, mu: &DualOver<C::Group, S::Item>) {
         let (weights, end) = (&self.coefficients.weights, &mut self.end);
-        weights.combine(&mut self.given, h, &self.force);
+        for (k, block) in self.blocks.iter().enumerate() {
+            block.force.write(self.force.block_mut(k));
+        }
+        weights.combine((&mut self.given, &mut self.rates), h, &self.force);
         end.impulse.read(&self.given);
         end.momentum.set_sum(mu, S::Item::one(), &end.impulse);
     }
@@ -410,7 +410,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     pub(super) fn rates_at(&mut self, system: &C, t: S::Item, mu: &DualOver<C::Group, S::Item>) {
         let Block {
             mu: at, xi, tau, ..
-        } = &mut self.block;
+        } = &mut self.blocks[0];
         for d in 0..at.dim() {
             at.set(d, S::splat(mu.get(d)));
         }
@@ -462,7 +462,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     /// $\dot c_i$ from $\xi_i$ at the place $c_i$.
     #[inline(always)]
     fn turn_velocity<R: Retraction>(&mut self, k: usize) {
-        let block = &mut self.block;
+        let block = &mut self.blocks[k];
         block.c.read(self.c.block(k));
         block.xi.read(self.xi.block(k));
         let (c, xi) = (&block.c, &block.xi);
@@ -473,7 +473,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     /// The force in the frame of the start, from $\tau_i$ at the place $c_i$.
     #[inline(always)]
     fn turn_force<R: Retraction>(&mut self, k: usize) {
-        let block = &mut self.block;
+        let block = &mut self.blocks[k];
         block.c.read(self.c.block(k));
         block.tau.read(self.tau.block(k));
         R::retract_into::<Over<C::Group, S>>(&block.c, &mut block.f);
@@ -484,12 +484,20 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     /// $\pi_i$ from the momentum in the frame of the start.
     #[inline(always)]
     fn transport_momentum<R: Retraction>(&mut self, k: usize) {
-        let block = &mut self.block;
+        let block = &mut self.blocks[k];
         block.c.read(self.c.block(k));
         block.mu.read(self.pi.block(k));
         let (momentum, out) = (&block.mu, (&mut block.f, &mut block.force, &mut block.pi));
         Over::<C::Group, S>::chart_leave_into::<R>(&block.c, momentum, out);
         block.pi.write(self.pi.block_mut(k));
+    }
+
+    /// Writes the velocities and forces at the stages.
+    pub(super) fn write_velocities(&self, xi: &mut Stages<S>, tau: &mut Stages<S>) {
+        for (k, block) in self.blocks.iter().enumerate() {
+            block.xi.write(xi.block_mut(k));
+            block.tau.write(tau.block_mut(k));
+        }
     }
 
     /// Writes the rates, stage by stage, and the momentum.
