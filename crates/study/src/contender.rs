@@ -13,6 +13,7 @@
 mod adaptive;
 mod failure;
 mod fixed;
+mod piloted;
 mod problem;
 
 use core::fmt;
@@ -31,6 +32,8 @@ use crate::methods::Method;
 pub enum Contender {
     /// One that keeps the structure.
     Structure(Method),
+    /// Variational Gauss collocation as a [pilot run](dvi::Pilot) chooses it for a wanted accuracy.
+    Pilot,
     /// [Classical](crate::explicit::ClassicalRungeKutta) Runge–Kutta on raw matrix entries.
     Rk4,
     /// [`MuntheKaas`](crate::explicit::Scheme::MuntheKaas).
@@ -52,6 +55,8 @@ pub enum Control {
     Step,
     /// The error allowed in a step.
     Tolerance,
+    /// The error allowed over the run.
+    Accuracy,
 }
 
 /// What a contender is made of; one colour on a chart.
@@ -83,7 +88,8 @@ fn names() -> String {
     names.join(", ")
 }
 
-const BASELINES: [Contender; 6] = [
+const OTHERS: [Contender; 7] = [
+    Contender::Pilot,
     Contender::Rk4,
     Contender::Rkmk4,
     Contender::Rkmk4Plain,
@@ -95,13 +101,14 @@ const BASELINES: [Contender; 6] = [
 impl Contender {
     /// Every contender, those that keep the structure first.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
-        Method::all().map(Self::Structure).chain(BASELINES)
+        Method::all().map(Self::Structure).chain(OTHERS)
     }
 
     /// What it is called on a command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Structure(method) => method.name(),
+            Self::Pilot => "pilot",
             Self::Rk4 => "rk4",
             Self::Rkmk4 => "rkmk4",
             Self::Rkmk4Plain => "rkmk4-plain",
@@ -115,6 +122,9 @@ impl Contender {
     pub fn description(self) -> String {
         match self {
             Self::Structure(method) => return method.description(),
+            Self::Pilot => {
+                "variational Gauss collocation, its stages and step chosen by a pilot run"
+            }
             Self::Rk4 => "classical Runge–Kutta on raw rotation matrices",
             Self::Rkmk4 => "Runge–Kutta–Munthe-Kaas on the group",
             Self::Rkmk4Plain => "the same without dexp^-1, to show what that costs",
@@ -125,26 +135,27 @@ impl Contender {
         .to_owned()
     }
 
-    /// The order: the error at a fixed time falls as $h^{\text{order}}$.
+    /// The order: the error at a fixed time falls as $h^{\text{order}}$; of the pilot's choice, the least.
     pub fn order(self) -> u32 {
         match self {
             Self::Structure(method) => method.order(),
             Self::Rk4 | Self::Rkmk4 | Self::Cf4 => 4,
             Self::Rkmk4Plain => 2,
             Self::Dp54 => 5,
-            Self::Dp853 => 8,
+            Self::Dp853 | Self::Pilot => 8,
         }
     }
 
     /// Whether it keeps the group, the symplectic form and the momentum maps.
     pub fn keeps_structure(self) -> bool {
-        matches!(self, Self::Structure(_))
+        matches!(self, Self::Structure(_) | Self::Pilot)
     }
 
     /// What its accuracy is asked for with.
     pub fn control(self) -> Control {
-        match self.kind() {
-            Kind::Adaptive => Control::Tolerance,
+        match self {
+            Self::Pilot => Control::Accuracy,
+            Self::Dp54 | Self::Dp853 => Control::Tolerance,
             _ => Control::Step,
         }
     }
@@ -157,6 +168,7 @@ impl Contender {
                 Family::Gauss { .. } => Kind::Gauss,
                 _ => Kind::Variational,
             },
+            Self::Pilot => Kind::Gauss,
             Self::Rk4 => Kind::Raw,
             Self::Rkmk4 | Self::Rkmk4Plain | Self::Cf4 => Kind::Group,
             Self::Dp54 | Self::Dp853 => Kind::Adaptive,

@@ -49,6 +49,7 @@ struct ChoiceObject {
 struct SettingObject {
     step_seconds: Option<f64>,
     tolerance: Option<f64>,
+    accuracy: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -145,6 +146,7 @@ impl SettingObject {
         Self {
             step_seconds: of(Control::Step),
             tolerance: of(Control::Tolerance),
+            accuracy: of(Control::Accuracy),
         }
     }
 }

@@ -45,7 +45,7 @@ pub struct Args {
 }
 
 /// Without those that are never the cheapest and would only fill the chart.
-const METHODS: &str = "lgvi,composition-2,composition-4,composition-8,gauss-2,gauss-4,gauss-6,gauss-8,\
+const METHODS: &str = "lgvi,composition-2,composition-4,composition-8,gauss-2,gauss-4,gauss-6,gauss-8,pilot,\
 rk4,rkmk4,rkmk4-plain,cf4,dp54,dp853";
 
 const AFTER_LONG_HELP: &str = "\
@@ -59,6 +59,7 @@ What is measured:
   error        the largest angle between a body's attitude and the reference's, at 200 times over the run
   time         of stepping alone: the least of 20 runs, or of what fits into 2 s, at two times, one after the other
   evaluations  of the continuous model, for lgvi and composition of the discrete one; they do not depend on the machine
+  pilot        the choice of lgvi run --accuracy for ever smaller errors; the pilot run before it is not in the time
   setting      one counts as reaching an error only if all finer settings of its method do
 All methods step the same model, that of lgvi run --full without the translation. Where lgvi inspect finds a smaller one,
 lgvi run is faster than the chart says. A method's line ends at the reference's own error, or after two runs of more than half a second.

@@ -119,6 +119,7 @@ impl<'a> Report<'a> {
         match choice.setting.control() {
             Control::Step => format!("h = {} s", three_digits(value)),
             Control::Tolerance => format!("tolerance {value:e}"),
+            Control::Accuracy => format!("accuracy {value:e}"),
         }
     }
 }

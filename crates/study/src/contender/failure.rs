@@ -1,6 +1,6 @@
 //! Why a run did not reach its end.
 
-use dvi::StepError;
+use dvi::{PilotError, StepError};
 use thiserror::Error;
 
 use crate::baseline::BaselineError;
@@ -15,7 +15,10 @@ pub enum Failure {
     /// The adaptive method refused its input or gave up.
     #[error(transparent)]
     Adaptive(#[from] BaselineError),
-    /// The setting is the other control's: a step for a tolerance, or the reverse.
+    /// No stages and step were found.
+    #[error(transparent)]
+    Pilot(#[from] PilotError),
+    /// The setting is another control's: a step for a tolerance, say.
     #[error("{name} is not run with {given}")]
     Control {
         /// The contender.

@@ -18,7 +18,7 @@ impl Contender {
             Self::Rkmk4 => Box::new(GroupRungeKutta::new(model, Scheme::MuntheKaas)),
             Self::Rkmk4Plain => Box::new(GroupRungeKutta::new(model, Scheme::WithoutDexp)),
             Self::Cf4 => Box::new(GroupRungeKutta::new(model, Scheme::CommutatorFree)),
-            Self::Dp54 | Self::Dp853 => return None,
+            Self::Pilot | Self::Dp54 | Self::Dp853 => return None,
         })
     }
 
@@ -32,15 +32,9 @@ impl Contender {
 }
 
 pub(super) fn run(contender: Contender, problem: &Problem, steps: u64) -> Result<Cost, Failure> {
-    let mut walk = Walk::new(contender, problem, steps)?;
-    let (outcome, time) = timed(|| walk.to(steps));
-    outcome?;
-    Ok(Cost {
-        time,
-        steps,
-        evaluations: contender.evaluations(steps, walk.iterations),
-        iterations: walk.iterations,
-    })
+    let mut cost = Walk::new(contender, problem, steps)?.run(steps)?;
+    cost.evaluations = contender.evaluations(steps, cost.iterations);
+    Ok(cost)
 }
 
 pub(super) fn sample(
@@ -49,31 +43,11 @@ pub(super) fn sample(
     steps: u64,
     samples: u64,
 ) -> Result<Vec<State<Configuration>>, Failure> {
-    let mut walk = Walk::new(contender, problem, steps)?;
-    let mut states = vec![problem.start.clone()];
-    for k in 1..=samples {
-        // In integers, so that a sample at a step's end is that step's.
-        let position = u128::from(k) * u128::from(steps);
-        let (whole, rest) = (
-            position / u128::from(samples),
-            position % u128::from(samples),
-        );
-        walk.to(u64::try_from(whole).unwrap_or(steps))?;
-        let mut state = match rest {
-            0 => walk.state.clone(),
-            rest => {
-                let ahead = walk.h * rest as f64 / samples as f64;
-                walk.integrator.peek(&walk.state, ahead)?
-            }
-        };
-        state.t = problem.until * k as f64 / samples as f64;
-        states.push(state);
-    }
-    Ok(states)
+    Walk::new(contender, problem, steps)?.sample((problem.until, steps), samples)
 }
 
 /// A run on its way.
-struct Walk {
+pub(super) struct Walk {
     integrator: BoxedIntegrator<Configuration>,
     state: State<Configuration>,
     h: f64,
@@ -83,15 +57,63 @@ struct Walk {
 
 impl Walk {
     fn new(contender: Contender, problem: &Problem, steps: u64) -> Result<Self, Failure> {
-        let setting = Setting::Steps(steps);
-        let misused = || contender.misused(setting);
-        Ok(Self {
-            integrator: contender.integrator(problem).ok_or_else(misused)?,
+        let misused = || contender.misused(Setting::Steps(steps));
+        let integrator = contender.integrator(problem).ok_or_else(misused)?;
+        Ok(Self::with(integrator, problem, steps))
+    }
+
+    pub(super) fn with(
+        integrator: BoxedIntegrator<Configuration>,
+        problem: &Problem,
+        steps: u64,
+    ) -> Self {
+        Self {
+            integrator,
             state: problem.start.clone(),
-            h: setting.value(problem.until),
+            h: problem.until / steps as f64,
             done: 0,
             iterations: 0,
+        }
+    }
+
+    /// The cost of so many steps, but for the evaluations.
+    pub(super) fn run(&mut self, steps: u64) -> Result<Cost, Failure> {
+        let (outcome, time) = timed(|| self.to(steps));
+        outcome?;
+        Ok(Cost {
+            time,
+            steps,
+            evaluations: 0,
+            iterations: self.iterations,
         })
+    }
+
+    /// The states at the samples of a run of so many steps.
+    pub(super) fn sample(
+        &mut self,
+        (until, steps): (f64, u64),
+        samples: u64,
+    ) -> Result<Vec<State<Configuration>>, Failure> {
+        let mut states = vec![self.state.clone()];
+        for k in 1..=samples {
+            // In integers, so that a sample at a step's end is that step's.
+            let position = u128::from(k) * u128::from(steps);
+            let (whole, rest) = (
+                position / u128::from(samples),
+                position % u128::from(samples),
+            );
+            self.to(u64::try_from(whole).unwrap_or(steps))?;
+            let mut state = match rest {
+                0 => self.state.clone(),
+                rest => {
+                    let ahead = self.h * rest as f64 / samples as f64;
+                    self.integrator.peek(&self.state, ahead)?
+                }
+            };
+            state.t = until * k as f64 / samples as f64;
+            states.push(state);
+        }
+        Ok(states)
     }
 
     /// Steps until `steps` are done.

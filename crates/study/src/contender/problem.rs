@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
 
-use super::{Contender, Control, Failure, adaptive, fixed};
+use super::{Contender, Control, Failure, adaptive, fixed, piloted};
 
 /// A model, where it starts and how long it runs: the same for every contender.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +26,8 @@ pub enum Setting {
     Steps(u64),
     /// To this relative and absolute tolerance.
     Tolerance(f64),
+    /// To this error over the run, rad and m.
+    Accuracy(f64),
 }
 
 impl Setting {
@@ -34,14 +36,15 @@ impl Setting {
         match self {
             Self::Steps(_) => Control::Step,
             Self::Tolerance(_) => Control::Tolerance,
+            Self::Accuracy(_) => Control::Accuracy,
         }
     }
 
-    /// The step, s, or the tolerance.
+    /// The step, s, the tolerance or the accuracy.
     pub fn value(self, until: f64) -> f64 {
         match self {
             Self::Steps(steps) => until / steps as f64,
-            Self::Tolerance(tolerance) => tolerance,
+            Self::Tolerance(error) | Self::Accuracy(error) => error,
         }
     }
 }
@@ -51,6 +54,7 @@ impl fmt::Display for Setting {
         match self {
             Self::Steps(steps) => write!(f, "{steps} steps"),
             Self::Tolerance(tolerance) => write!(f, "a tolerance of {tolerance:e}"),
+            Self::Accuracy(accuracy) => write!(f, "an accuracy of {accuracy:e}"),
         }
     }
 }
@@ -86,6 +90,7 @@ impl Contender {
         match setting {
             Setting::Steps(steps) => fixed::run(self, problem, steps),
             Setting::Tolerance(tolerance) => adaptive::run(self, problem, tolerance),
+            Setting::Accuracy(accuracy) => piloted::run(self, problem, accuracy),
         }
     }
 
@@ -103,6 +108,7 @@ impl Contender {
         match setting {
             Setting::Steps(steps) => fixed::sample(self, problem, steps, samples),
             Setting::Tolerance(tolerance) => adaptive::sample(self, problem, tolerance, samples),
+            Setting::Accuracy(accuracy) => piloted::sample(self, problem, accuracy, samples),
         }
     }
 

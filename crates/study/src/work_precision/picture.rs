@@ -170,7 +170,9 @@ impl Chart<'_> {
             match point.setting.control() {
                 Control::Step => value,
                 // Steps are in proportion to this power.
-                Control::Tolerance => value.powf(1.0 / f64::from(curve.contender.order())),
+                Control::Tolerance | Control::Accuracy => {
+                    value.powf(1.0 / f64::from(curve.contender.order()))
+                }
             }
         };
         let cost = |(i, point): (usize, &Point)| {

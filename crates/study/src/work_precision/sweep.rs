@@ -7,7 +7,7 @@ use crate::contender::{Contender, Control, Cost, Failure, Problem, Setting};
 
 /// The first step, in times of the [radian](Reference::radian).
 const COARSEST: f64 = 4.0;
-/// The loosest tolerance is ten to the minus this, and the tightest.
+/// The loosest tolerance or accuracy is ten to the minus this, and the tightest.
 const TOLERANCES: (i32, i32) = (2, 13);
 /// An error within so many of the reference's own is as small as one can be seen to be.
 const NEAR: f64 = 3.0;
@@ -61,6 +61,7 @@ impl Curve {
         let setting = match self.contender.control() {
             Control::Step => format!("h = {} s", three_digits(*value)),
             Control::Tolerance => format!("tolerance {value:e}"),
+            Control::Accuracy => format!("accuracy {value:e}"),
         };
         let settings = if count == 1 { "setting" } else { "settings" };
         // What follows is advice, to take a shorter step.
@@ -120,6 +121,7 @@ impl<'a> Sweep<'a> {
         let first = match contender.control() {
             Control::Step => Setting::Steps((steps as u64).max(1)),
             Control::Tolerance => Setting::Tolerance(power_of_ten(TOLERANCES.0)),
+            Control::Accuracy => Setting::Accuracy(power_of_ten(TOLERANCES.0)),
         };
         Self {
             contender,
@@ -175,17 +177,20 @@ impl<'a> Sweep<'a> {
                 let finer = (steps as f64 * ratio).round() as u64;
                 Some(Setting::Steps(finer.max(steps.saturating_add(1))))
             }
-            Setting::Tolerance(tolerance) => {
-                let exponent = -tolerance.log10().round() as i32 + 1;
-                let exponent = (exponent <= TOLERANCES.1).then_some(exponent)?;
-                Some(Setting::Tolerance(power_of_ten(exponent)))
-            }
+            Setting::Tolerance(tolerance) => Some(Setting::Tolerance(a_tenth(tolerance)?)),
+            Setting::Accuracy(accuracy) => Some(Setting::Accuracy(a_tenth(accuracy)?)),
         }
     }
 }
 
 fn three_digits(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
+}
+
+/// The next power of ten below, if it is worth trying.
+fn a_tenth(tolerance: f64) -> Option<f64> {
+    let exponent = -tolerance.log10().round() as i32 + 1;
+    (exponent <= TOLERANCES.1).then(|| power_of_ten(exponent))
 }
 
 /// $10^{-n}$, correctly rounded.

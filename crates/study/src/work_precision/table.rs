@@ -17,6 +17,7 @@ pub fn csv(curves: &[Curve], until: f64) -> String {
         let control = match curve.contender.control() {
             Control::Step => "step",
             Control::Tolerance => "tolerance",
+            Control::Accuracy => "accuracy",
         };
         for Point { setting, outcome } in &curve.points {
             let value = setting.value(until);

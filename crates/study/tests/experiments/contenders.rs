@@ -51,7 +51,7 @@ fn adaptive_pairs_work_at_their_order() {
 #[test]
 fn names_are_read_as_they_are_written() {
     let names: Vec<_> = Contender::all().map(Contender::name).collect();
-    assert_eq!(names.len(), 20);
+    assert_eq!(names.len(), 21);
     for contender in Contender::all() {
         assert_eq!(contender.to_string().parse(), Ok(contender));
     }
@@ -69,7 +69,8 @@ fn a_setting_is_for_its_own_control() {
     for contender in Contender::all() {
         let other = match contender.control() {
             Control::Step => Setting::Tolerance(1e-6),
-            Control::Tolerance => Setting::Steps(100),
+            Control::Tolerance => Setting::Accuracy(1e-6),
+            Control::Accuracy => Setting::Steps(100),
         };
         let refused = contender.run(&problem, other);
         assert!(
@@ -86,6 +87,7 @@ fn samples_are_those_of_the_run() {
         ("gauss-2", Setting::Steps(12)),
         ("rk4", Setting::Steps(12)),
         ("dp54", Setting::Tolerance(1e-8)),
+        ("pilot", Setting::Accuracy(1e-6)),
     ] {
         let few = named(name).sample(&problem, setting, 4).unwrap();
         let many = named(name).sample(&problem, setting, 20).unwrap();
