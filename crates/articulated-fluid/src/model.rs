@@ -173,21 +173,28 @@ impl<M: Mass> ArticulatedBody<M> {
         Ok(self)
     }
 
-    /// The same bodies on elastic joints: each turns its body and the parent back to where their frames are aligned, with the
-    /// potential $k (1 - \cos\theta)$ of the angle $\theta$ between these and the stiffness $k \ge 0$, N m. The stiffnesses are in the
-    /// order of [`joints`](Self::joints); zero is a free joint.
+    /// The same bodies on elastic joints, at rest where the frames of body and parent are aligned: the potential of a joint is
+    /// $k (1 - \cos\theta)$ with the angle $\theta$ between these and the stiffness $k \ge 0$, N m; zero is a free joint.
+    ///
+    /// The stiffnesses are in the order of [`joints`](Self::joints).
     ///
     /// # Errors
     /// [`ModelError::Stiffnesses`] where there is not one for each joint; [`ModelError::Stiffness`] where one is negative or not finite.
     ///
     /// ```
     /// use articulated_fluid::{ArticulatedBody, Body, Joint};
-    /// use lie::{Mat3, Vec3};
+    /// use dvi::State;
+    /// use lie::{LieGroup, Mat3, SO3, Tangent, Vec3};
     ///
     /// let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
     /// let (at_parent, at_child) = (Vec3([0.6, 0.0, 0.0]), Vec3([-0.6, 0.0, 0.0]));
     /// let pair = ArticulatedBody::new(&[body; 2], &[Joint { parent: 0, child: 1, at_parent, at_child }])?;
     /// let elastic = pair.with_stiffness(&[5.0])?;
+    /// let mut g = elastic.aligned();
+    /// g.2[0] = SO3::exp(&Tangent([0.0, 0.0, 0.3]));
+    /// let mu = g.zero_dual();
+    /// let energy = elastic.conserved(&State { t: 0.0, g, mu })?.energy;
+    /// assert!((energy - 5.0 * (1.0 - 0.3_f64.cos())).abs() < 1e-15);
     /// # Ok::<(), articulated_fluid::ModelError>(())
     /// ```
     pub fn with_stiffness(mut self, stiffnesses: &[f64]) -> Result<Self, ModelError> {

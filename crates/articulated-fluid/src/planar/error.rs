@@ -76,7 +76,7 @@ pub enum NotPlanarCause {
     /// Gravity has a part along the normal.
     #[error("gravity is not in the plane")]
     GravityOffPlane,
-    /// The plane's normal is not one direction in the frames of both bodies of an elastic joint, aligned at rest.
+    /// The normal has not one direction in the frames of both bodies of an elastic joint, which aligns these at rest.
     #[error("an elastic joint turns a body out of the plane")]
     SpringOffPlane,
     /// The state is not one of the model, or has a number that is not finite.

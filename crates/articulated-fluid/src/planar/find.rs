@@ -319,7 +319,7 @@ impl<'a, M: Mass> Motion<'a, M> {
         ratio(off, in_plane.hypot(off))
     }
 
-    /// How far apart the normals in both bodies' frames are: at rest these are aligned, and the bodies out of the plane.
+    /// How far apart the normals in the frames of both bodies are, which the joint aligns at rest.
     fn spring_off_plane(&self, spring: &Spring, n: Vec3) -> f64 {
         let [on, normal] =
             [spring.parent, spring.child].map(|body| self.attitude(body).inverse_rotate(n));

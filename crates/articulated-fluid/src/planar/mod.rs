@@ -2,8 +2,7 @@
 //!
 //! Where the normal $n$ of a plane is, in every body's frame, a principal direction of its mass and its inertia, where the
 //! joints, the velocity and the gravity lie in the plane and the bodies spin about $n$, the motion stays so: no force leads
-//! out of it. Where an elastic joint is aligned, $n$ has one direction in the frames of both its bodies: then it only turns them
-//! about $n$. Rotations are then angles and the group is abelian, $SO(2) \times \mathbb{R}^2 \times SO(2)^n$.
+//! out of it. An elastic joint aligns the frames of its bodies: where $n$ has one direction in both, it only turns them about $n$. Rotations are then angles and the group is abelian, $SO(2) \times \mathbb{R}^2 \times SO(2)^n$.
 //!
 //! [`Plane::find`] finds the plane of a model and a state; [`PlanarBody`] is the model in it, with the discrete and the
 //! continuous Lagrangian of [`ArticulatedBody`](crate::ArticulatedBody) restricted to the plane, the same functions; and
