@@ -23,7 +23,7 @@ fn scale(sample: &Sample) -> f64 {
     30.0 * turns.fold(sample.f.1.vec3().norm(), f64::max)
 }
 
-/// The size of the weights' and the elastic joints' part, times $h$: forces times lengths, and stiffnesses.
+/// The size of the weights' and the elastic joints' part, times $h$: forces times lengths, and potentials.
 fn weighs(sample: &Sample) -> f64 {
     let (gravity, masses) = sample.weights();
     let sizes = masses.iter().zip(sample.centres(&sample.g));
@@ -31,8 +31,9 @@ fn weighs(sample: &Sample) -> f64 {
     H * H * (weight + elastic(sample))
 }
 
+/// The most that the potential of the elastic joints can be.
 fn elastic(sample: &Sample) -> f64 {
-    sample.stiffnesses.iter().sum()
+    2.0 * sample.stiffnesses.iter().sum::<f64>()
 }
 
 proptest! {
