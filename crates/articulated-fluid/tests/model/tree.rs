@@ -214,7 +214,7 @@ proptest! {
 
     #[test]
     fn the_weight_alone_changes_the_momenta(sample in small()) {
-        const H: f64 = 0.01;
+        const H: f64 = 0.005;
         let states = run(&sample.model, &sample.state(), H, 100);
         let kept = |state| sample.model.conserved(state).expect("the model's state");
         let start = kept(&states[0]);
