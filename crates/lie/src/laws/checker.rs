@@ -122,6 +122,8 @@ impl Checker {
 }
 
 /// The logarithm, or one of them.
+// Inlined, it would be compiled into every law of every group.
+#[inline(never)]
 pub(super) fn log_of<G: LieGroup>(g: &G) -> G::Algebra {
     g.log().unwrap_or_else(|e| e.representative)
 }
@@ -133,7 +135,7 @@ pub(super) fn size<G: LieGroup>(g: &G) -> f64 {
 
 /// The dual vector whose pairing with $e_i$ is that of $\mu$ with `images[i]`.
 pub(super) fn by_pairing<G: LieGroup>(mu: &G::Dual, images: &[G::Algebra]) -> G::Dual {
-    filled(mu, |i| G::pair(mu, &images[i]))
+    filled(mu, &|i| G::pair(mu, &images[i]))
 }
 
 fn coordinates<V: VectorSpace>(x: &V) -> Vec<V::Scalar> {

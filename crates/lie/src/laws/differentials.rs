@@ -144,7 +144,7 @@ pub(super) fn constant<G>(shape: &G, xi: &G::Algebra) -> <Over<G, JetOf<G>> as L
 where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
 {
-    filled(&lifted(shape).zero_algebra(), |i| Jet::constant(xi.get(i)))
+    filled(&lifted(shape).zero_algebra(), &|i| Jet::constant(xi.get(i)))
 }
 
 fn lifted<G>(g: &G) -> Over<G, JetOf<G>>
@@ -159,7 +159,7 @@ pub(super) fn partial<G: LieGroup>(
     shape: &G::Algebra,
     x: &impl VectorSpace<Scalar = JetOf<G>>,
 ) -> G::Algebra {
-    filled(shape, |i| x.get(i).partial(0))
+    filled(shape, &|i| x.get(i).partial(0))
 }
 
 /// The step that balances truncation and rounding of central differences.

@@ -20,7 +20,7 @@ impl<'a, G: LieGroup> Examples<'a, G> {
     pub(super) fn new(elements: &'a [G], given: &'a [G::Algebra]) -> Self {
         let (algebra, dual) = (elements[0].zero_algebra(), elements[0].zero_dual());
         let basis_of_algebra = basis(&algebra);
-        let reversed = |xi: &G::Algebra| filled(&dual, |i| xi.get(xi.dim() - 1 - i));
+        let reversed = |xi: &G::Algebra| filled(&dual, &|i| xi.get(xi.dim() - 1 - i));
         Self {
             elements,
             given,

@@ -3,38 +3,40 @@
 use crate::{Scalar, VectorSpace};
 
 /// The vector of the shape of `shape` with these coordinates.
-pub(super) fn filled<V: VectorSpace>(shape: &V, coordinate: impl Fn(usize) -> V::Scalar) -> V {
+// Inlined, it would be compiled into every law of every group.
+#[inline(never)]
+pub(super) fn filled<V: VectorSpace>(shape: &V, coordinate: &dyn Fn(usize) -> V::Scalar) -> V {
     let mut x = shape.clone();
     (0..shape.dim()).for_each(|i| x.set(i, coordinate(i)));
     x
 }
 
 pub(super) fn zero<V: VectorSpace>(shape: &V) -> V {
-    filled(shape, |_| V::Scalar::from_f64(0.0))
+    filled(shape, &|_| V::Scalar::from_f64(0.0))
 }
 
 /// The basis $e_1, \dots, e_n$.
 pub(super) fn basis<V: VectorSpace>(shape: &V) -> Vec<V> {
-    let unit = |k: usize| filled(shape, |i| V::Scalar::from_f64(f64::from(i == k)));
+    let unit = |k: usize| filled(shape, &|i| V::Scalar::from_f64(f64::from(i == k)));
     (0..shape.dim()).map(unit).collect()
 }
 
 /// A vector with no coordinate zero and no two alike: what a method must overwrite or use.
 pub(super) fn generic<V: VectorSpace>(shape: &V, offset: f64) -> V {
     let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-    filled(shape, |i| {
+    filled(shape, &|i| {
         V::Scalar::from_f64(sign(i) * (offset + 0.125 * i as f64))
     })
 }
 
 /// $a x$.
 pub(super) fn scaled<V: VectorSpace>(x: &V, a: f64) -> V {
-    filled(x, |i| x.get(i) * V::Scalar::from_f64(a))
+    filled(x, &|i| x.get(i) * V::Scalar::from_f64(a))
 }
 
 /// $x + y$.
 pub(super) fn sum<V: VectorSpace>(x: &V, y: &V) -> V {
-    filled(x, |i| x.get(i) + y.get(i))
+    filled(x, &|i| x.get(i) + y.get(i))
 }
 
 /// The Euclidean length.

@@ -36,7 +36,7 @@ fn slices<V: VectorSpace>(c: &mut Checker, x: &V) -> Outcome {
     same(c, "write(x)_i = x_i", (front, &expected))?;
     same(c, "write(x) leaves what is past x", (rest, &[garbage]))?;
 
-    let mut copy = filled(x, |_| garbage);
+    let mut copy = filled(x, &|_| garbage);
     copy.read(&[&expected[..], &[garbage]].concat());
     vectors(c, "read(write(x)) = x", (&copy, x))?;
     same(c, "coordinates(x)_i = x_i", (&x.coordinates(), &expected))
@@ -44,21 +44,21 @@ fn slices<V: VectorSpace>(c: &mut Checker, x: &V) -> Outcome {
 
 fn combinations<V: VectorSpace>(c: &mut Checker, x: &V, y: &V) -> Outcome {
     let (a, garbage) = (V::Scalar::from_f64(0.5), V::Scalar::from_f64(9.0));
-    let expected = filled(x, |i| x.get(i) + a * y.get(i));
+    let expected = filled(x, &|i| x.get(i) + a * y.get(i));
 
     let mut added = x.clone();
     added.add_scaled(a, y);
     vectors(c, "add_scaled: x + a y", (&added, &expected))?;
-    let mut set = filled(x, |_| garbage);
+    let mut set = filled(x, &|_| garbage);
     set.set_sum(x, a, y);
     vectors(c, "set_sum = x + a y", (&set, &expected))?;
 
-    let mut copied = filled(x, |_| garbage);
+    let mut copied = filled(x, &|_| garbage);
     copied.copy_from(x);
     vectors(c, "copy_from: x", (&copied, x))?;
     let mut scaled = x.clone();
     scaled.scale(a);
-    vectors(c, "scale: a x", (&scaled, &filled(x, |i| a * x.get(i))))?;
+    vectors(c, "scale: a x", (&scaled, &filled(x, &|i| a * x.get(i))))?;
 
     let mut none = x.clone();
     none.set_zero();

@@ -41,24 +41,19 @@ fn prove<G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>>(shape: &G) {
 }
 
 macro_rules! prove {
-    ($($name:ident: $shape:expr;)+) => { $(
+    ($test:ident, $scalar:ty: $($name:ident: $shape:expr;)+) => { $(
         mod $name {
             use super::*;
             #[test]
-            fn in_double_precision() {
-                type S = f64;
-                prove(&$shape);
-            }
-            #[test]
-            fn in_single_precision() {
-                type S = f32;
+            fn $test() {
+                type S = $scalar;
                 prove(&$shape);
             }
         }
     )+ };
 }
 
-prove! {
+prove! { in_double_precision, f64:
     so3: SO3::<S>::identity();
     se3: SE3::<S>::identity();
     so2: SO2::<S>::identity();
@@ -73,6 +68,21 @@ prove! {
     planar: (SE2::<S>::identity(), SO2::<S>::identity(), [SO2::<S>::identity(); 2]);
     chain: (SE2::<S>::identity(), Power::new(vec![SO2::<S>::identity(); 3]));
     paper: (SE3::<S>::identity(), Power::new(vec![SO3::<S>::identity(); 2]));
+}
+
+/// Every group, and each kind of product once: their formulas are those of double precision.
+mod single {
+    use super::*;
+
+    prove! { in_single_precision, f32:
+        so3: SO3::<S>::identity();
+        se3: SE3::<S>::identity();
+        so2: SO2::<S>::identity();
+        se2: SE2::<S>::identity();
+        r3: R3::<S>::identity();
+        planar: (SE2::<S>::identity(), [SO2::<S>::identity(); 2]);
+        power: Power::new(vec![SO3::<S>::identity(); 2]);
+    }
 }
 
 fn velocity<const N: usize>() -> impl Strategy<Value = Tangent<N>> {
