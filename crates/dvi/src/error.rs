@@ -17,7 +17,8 @@ pub enum StepError {
         t: f64,
         /// Step size, in seconds.
         h: f64,
-        /// The smallest residual reached, relative to the momentum's size.
+        /// The smallest residual reached, relative to the momentum's size; where a root was found that is not the motion's, its distance
+        /// from where that was expected, relative to it.
         residual: f64,
         /// Iterations done.
         iterations: u32,

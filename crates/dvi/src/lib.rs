@@ -36,6 +36,10 @@
 //! [`Variational::new`] takes Newton's matrix from dual numbers and keeps it until convergence slows;
 //! [`Variational::with_inertia`] takes the inertia of a model that solves it fast ([`Inertia`]).
 //!
+//! The balance of a long step has many roots, and the motion's is the one that grows from no displacement at $h = 0$. A root that is far from
+//! where it was expected is not taken: the solution is then followed from shorter steps, and where it ends before the step's size, the step
+//! is refused.
+//!
 //! The new momentum is the coadjoint transport of the old one, not a difference quotient: so momentum maps hold to rounding
 //! even at a loose tolerance, and say nothing about whether the step was solved. The [`StepReport`]'s residual does.
 

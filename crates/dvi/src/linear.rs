@@ -73,6 +73,23 @@ impl Factorisation {
         })
     }
 
+    /// Whether the determinant is negative.
+    pub(crate) fn turns_over(&self) -> bool {
+        let n = self.rhs.len();
+        let negative = (0..n).filter(|i| self.factors[(*i, *i)] < 0.0).count();
+        // Each cycle of the permutation is one swap less than it is long.
+        let mut seen = vec![false; n];
+        let mut cycles = 0;
+        for first in 0..n {
+            let mut i = first;
+            cycles += usize::from(!seen[first]);
+            while !core::mem::replace(&mut seen[i], true) {
+                i = self.forward[i];
+            }
+        }
+        (negative + n - cycles) % 2 == 1
+    }
+
     pub(crate) fn right_hand_side(&mut self) -> &mut [f64] {
         &mut self.rhs
     }
@@ -109,6 +126,8 @@ mod tests {
         system.factorise();
         system.right_hand_side().copy_from_slice(&[7.0, 1.0, 15.0]);
         assert_eq!(system.solve(), [1.0, 2.0, 3.0]);
+        // The determinant is -8.
+        assert!(system.turns_over());
         system.set(1, 0, 0.0);
         system.set(2, 0, 0.0);
         system.factorise();

@@ -1,12 +1,13 @@
 //! The Lie group variational integrator of a discrete Lagrangian: (25)–(26) in both forms.
 
 use core::marker::PhantomData;
+use core::ops::Range;
 
 use lie::{Cayley, LieGroup, Retraction, VectorSpace};
 
 use crate::balance::Balance;
 use crate::newton::is_degenerate;
-use crate::numbers::relative;
+use crate::numbers::{astray, larger, relative};
 use crate::solver::{Algebra, Dual, StepSolver};
 use crate::variation::Linearised;
 use crate::warm_start::WarmStart;
@@ -27,6 +28,13 @@ const ROUNDING: f64 = 1e-12;
 const STANDS: f64 = 0.9;
 /// Iterations that bring the cyclic equations from the tolerance to rounding.
 const CYCLIC_ITERATIONS: u32 = 3;
+/// A correction of the cyclic coordinates below this share of the displacement is rounding.
+const NOISE: f64 = 1e3 * f64::EPSILON;
+/// How far from its prediction a root may lie, as a share of that.
+/// About a fixed axis there is the branch $\theta = \arcsin h\omega$ and another root, $\pi - \theta$, which is farther.
+const NEAR: f64 = 0.25;
+/// The shortest part of a step that its solution is followed by.
+const SHORTEST_PART: f64 = 1.0 / 64.0;
 /// Steps between corrections of the rounding that moves the configuration off its group.
 const NORMALIZE_EVERY: u64 = 32;
 
@@ -61,10 +69,15 @@ struct Work<L: DiscreteLagrangian, M> {
     balance: Balance<L::Group, f64>,
     /// What a norm is taken of.
     judged: Dual<L>,
+    /// What a residual is relative to.
+    scale: f64,
     warm: WarmStart,
     c: Algebra<L>,
     delta: Algebra<L>,
+    /// Where a root is expected.
     coordinates: Vec<f64>,
+    /// The solution of a part of the step.
+    reached: Algebra<L>,
     next: L::Group,
 }
 
@@ -75,9 +88,11 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             solver: M::allocate(lagrangian, g),
             balance: Balance::new(g),
             judged: g.zero_dual(),
+            scale: 0.0,
             warm: WarmStart::new(c.dim()),
             coordinates: vec![0.0; c.dim()],
             delta: c.clone(),
+            reached: c.clone(),
             c,
             next: g.clone(),
         }
@@ -104,6 +119,15 @@ struct Solved {
     converged: bool,
     /// Whether the first evaluation was finite.
     started: bool,
+}
+
+/// Where an iteration starts.
+#[derive(Clone, Copy, PartialEq)]
+enum Start {
+    /// From the prediction.
+    Guess,
+    /// From no displacement: where the first correction leads is the prediction.
+    Rest,
 }
 
 impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R> {
@@ -245,7 +269,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         Ok(())
     }
 
-    /// Solves the balance from the extrapolated guess, and once more from zero where that fails.
+    /// Solves the balance from the extrapolated guess, and from no displacement where that leads nowhere or astray.
     fn solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, StepError> {
         let (step, t) = (self.steps, state.t);
         self.check(t, h, &state.g)?;
@@ -275,17 +299,20 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         if !state.mu.max_magnitude().is_finite() {
             return Err(StepError::NotFinite { step, t, h });
         }
-        work.solver.begin(lagrangian, state, h);
-        let warm = work.warm.guess(h, &mut work.coordinates);
-        work.c.read(&work.coordinates);
-        let mut solved = work.iterate::<R>(lagrangian, (state, h), (tolerance, floor));
-        if warm && !solved.converged {
+        let mut before = 0;
+        if work.warm.guess(h, &mut work.coordinates) {
+            work.solver.begin(lagrangian, state, h);
+            work.c.read(&work.coordinates);
+            let goal = (tolerance, floor);
+            let solved = work.iterate::<R>(lagrangian, (state, h), Start::Guess, goal);
+            if solved.converged {
+                return Ok(solved.report);
+            }
+            before = solved.report.iterations;
             work.forget();
-            work.c.set_zero();
-            let before = solved.report;
-            solved = work.iterate::<R>(lagrangian, (state, h), (tolerance, floor));
-            solved.report.iterations += before.iterations;
         }
+        let mut solved = work.follow::<R>(lagrangian, (state, h), (tolerance, floor));
+        solved.report.iterations += before;
         if !solved.converged {
             work.forget();
             let degenerate = solved.started && is_degenerate(lagrangian, state, h);
@@ -310,7 +337,7 @@ fn failure(
     }
     let hint = if degenerate {
         Hint::Degenerate
-    } else if residual < ROUNDING.max(1e3 * tolerance) {
+    } else if is_rounding(residual, tolerance) {
         Hint::LooserTolerance {
             tolerance: 2.0 * residual,
         }
@@ -327,6 +354,11 @@ fn failure(
     }
 }
 
+/// Whether rounding alone may be what keeps a residual from the tolerance.
+fn is_rounding(residual: f64, tolerance: f64) -> bool {
+    residual < ROUNDING.max(1e3 * tolerance)
+}
+
 /// The Euclidean norm, by the largest coordinate where squares leave the range of numbers.
 #[inline(always)]
 fn norm<V: VectorSpace>(x: &V) -> f64 {
@@ -338,6 +370,14 @@ fn norm<V: VectorSpace>(x: &V) -> f64 {
     }
 }
 
+/// The norm without the coordinates that are solved exactly: they may have another unit, and be larger by far.
+#[inline(always)]
+fn judged<V: VectorSpace<Scalar = f64>>(storage: &mut V, x: &V, exact: Range<usize>) -> f64 {
+    storage.copy_from(x);
+    exact.for_each(|i| storage.set(i, 0.0));
+    norm(storage)
+}
+
 impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     /// Forgets what steps before have left, where it may be what made a step fail.
     fn forget(&mut self) {
@@ -345,16 +385,87 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         self.solver.forget();
     }
 
+    /// Follows the solution from $h = 0$, where it is no displacement: in one go where the root is near its prediction, and else in
+    /// parts. The balance of a long step has many roots, and this one is the motion's.
+    fn follow<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        goal: (f64, f64),
+    ) -> Solved {
+        let mut whole = self.follow_to::<R>(lagrangian, (state, h), [0.0, 1.0], goal);
+        if whole.converged || !whole.started || is_rounding(whole.report.residual, goal.0) {
+            return whole;
+        }
+        let (mut reached, mut part) = (0.0, 0.5);
+        while part >= SHORTEST_PART {
+            let next = (reached + part).min(1.0);
+            let mut solved = self.follow_to::<R>(lagrangian, (state, h), [reached, next], goal);
+            whole.report.iterations += solved.report.iterations;
+            if !solved.converged {
+                part *= 0.5;
+                continue;
+            }
+            if next == 1.0 {
+                solved.report.iterations = whole.report.iterations;
+                return solved;
+            }
+            self.reached.copy_from(&self.c);
+            (reached, part) = (next, 2.0 * part);
+        }
+        whole
+    }
+
+    /// Solves for the share `next` of a step from the solution for the share `reached`.
+    fn follow_to<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        [reached, next]: [f64; 2],
+        goal: (f64, f64),
+    ) -> Solved {
+        let start = if reached == 0.0 {
+            self.c.set_zero();
+            Start::Rest
+        } else {
+            self.c.copy_from(&self.reached);
+            self.c.scale(next / reached);
+            Start::Guess
+        };
+        self.c.write(&mut self.coordinates);
+        self.solver.forget();
+        self.solver.begin(lagrangian, state, next * h);
+        self.iterate::<R>(lagrangian, (state, next * h), start, goal)
+    }
+
+    /// How far the root is from where it was expected, where it is too far to be the motion's.
+    fn astray(&self, lagrangian: &L) -> Option<f64> {
+        let exact = self.solver.exact(lagrangian);
+        let (mut apart, mut size) = (0.0, 0.0);
+        for (i, expected) in self.coordinates.iter().enumerate() {
+            if !exact.contains(&i) {
+                apart = larger(apart, (self.c.get(i) - expected).abs());
+                size = larger(size, expected.abs());
+            }
+        }
+        astray(apart, size, NEAR)
+    }
+
     /// Iterates from the coordinates in `c` until the residual is within the tolerance, or stands below the floor.
     fn iterate<R: Retraction>(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
+        start: Start,
         (tolerance, floor): (f64, f64),
     ) -> Solved {
         let [mut best, mut last, mut before] = [f64::INFINITY; 3];
         for iterations in 1..=MAX_ITERATIONS {
-            let residual = self.evaluate::<R>(lagrangian, state, h);
+            self.evaluate::<R>(lagrangian, state, h);
+            if iterations == 1 {
+                self.scale = self.momenta(lagrangian, &state.mu);
+            }
+            let residual = self.residual(lagrangian);
             // Over two iterations: the contraction's eigenvalues are complex, and single ones jump.
             let slow = match before.is_finite() {
                 true => residual > M::SLOW * last && residual > M::SLOW * M::SLOW * before,
@@ -364,15 +475,16 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             if residual <= tolerance || stands {
                 let more = self.finish_cyclic::<R>(lagrangian, state, h);
                 // What that has moved may be just above the tolerance again: then iterate on.
-                let residual = self.residual(lagrangian, &state.mu);
+                let residual = self.residual(lagrangian);
                 if residual <= tolerance || (stands && residual < floor) {
+                    let astray = self.astray(lagrangian);
                     let report = StepReport {
                         iterations: iterations + more,
-                        residual,
+                        residual: astray.unwrap_or(residual),
                     };
                     return Solved {
                         report,
-                        converged: true,
+                        converged: astray.is_none(),
                         started: true,
                     };
                 }
@@ -396,6 +508,9 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             self.solver
                 .solve(lagrangian, &self.balance.residual, &mut self.delta);
             self.c.add_scaled(-1.0, &self.delta);
+            if iterations == 1 && start == Start::Rest {
+                self.c.write(&mut self.coordinates);
+            }
         }
         let report = StepReport {
             iterations: MAX_ITERATIONS,
@@ -408,31 +523,40 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         }
     }
 
-    /// The residual's norm relative to the momentum's before or after, whichever is larger: a force may exceed the first by far.
+    /// The size of the momenta in the balance as it is evaluated first: before the step, after it, and what a force adds to either.
     ///
-    /// Without the coordinates that are solved exactly: they may have another unit, and be larger by far.
-    #[inline(always)]
-    fn residual(&mut self, lagrangian: &L, mu: &Dual<L>) -> f64 {
+    /// Not of those at later iterates: where these go astray momenta grow, and any residual is small beside them.
+    fn momenta(&mut self, lagrangian: &L, mu: &Dual<L>) -> f64 {
         let exact = self.solver.exact(lagrangian);
-        let (judged, balance) = (&mut self.judged, &self.balance);
-        let mut size = |x: &Dual<L>| {
-            judged.copy_from(x);
-            exact.clone().for_each(|i| judged.set(i, 0.0));
-            norm(judged)
-        };
-        let scale = size(mu).max(size(&balance.transported));
-        relative(size(&balance.residual), scale)
+        let Balance {
+            transported,
+            derivatives,
+            ..
+        } = &self.balance;
+        [mu, transported, &derivatives.d_f]
+            .map(|x| judged(&mut self.judged, x, exact.clone()))
+            .into_iter()
+            .fold(0.0, larger)
     }
 
-    /// Evaluates the balance at `c`; the residual relative to the momentum.
+    /// The residual's norm relative to that of the momenta.
     #[inline(always)]
-    fn evaluate<R: Retraction>(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) -> f64 {
+    fn residual(&mut self, lagrangian: &L) -> f64 {
+        let exact = self.solver.exact(lagrangian);
+        relative(
+            judged(&mut self.judged, &self.balance.residual, exact),
+            self.scale,
+        )
+    }
+
+    /// Evaluates the balance at `c`.
+    #[inline(always)]
+    fn evaluate<R: Retraction>(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) {
         self.balance.retract::<R>(&self.c);
         let Balance { f, derivatives, .. } = &mut self.balance;
         self.solver
             .derivatives(lagrangian, (state, h), f, &mut self.c, derivatives);
         self.balance.transport(&state.mu);
-        self.residual(lagrangian, &state.mu)
     }
 
     /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance.
@@ -443,7 +567,14 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         h: f64,
     ) -> u32 {
         let cyclic = lagrangian.cyclic();
-        for more in 0..CYCLIC_ITERATIONS {
+        for more in 0..=CYCLIC_ITERATIONS {
+            if more == CYCLIC_ITERATIONS {
+                if self.delta.max_magnitude() <= NOISE * self.c.max_magnitude() {
+                    return more;
+                }
+                // The matrix is of an attitude too far from this one.
+                self.solver.renew::<R>(lagrangian, state, h, &self.c);
+            }
             let left = &self.balance.residual;
             let solved = cyclic.clone().all(|i| left.get(i) == 0.0);
             if solved
@@ -456,7 +587,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             self.c.add_scaled(-1.0, &self.delta);
             self.evaluate::<R>(lagrangian, state, h);
         }
-        CYCLIC_ITERATIONS
+        CYCLIC_ITERATIONS + 1
     }
 }
 

@@ -16,12 +16,19 @@ fn load(file: &str) -> Scene {
     Scene::load(&directory().join(file)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Every scene with the name of its file.
-fn all() -> Vec<(String, Scene)> {
-    let entries = std::fs::read_dir(directory()).expect("the scenes");
-    let names = entries.map(|entry| entry.expect("an entry").file_name());
-    let names = names.map(|name| name.into_string().expect("a name"));
+/// Every scene in a folder of the scenes with the name of its file.
+fn all_in(folder: &str) -> Vec<(String, Scene)> {
+    let entries = std::fs::read_dir(directory().join(folder)).expect("the scenes");
+    let files = entries.map(|entry| entry.expect("an entry").path());
+    let names = files.filter(|path| path.is_file()).map(|path| {
+        let name = path.file_name().and_then(|name| name.to_str());
+        format!("{folder}{}", name.expect("a name"))
+    });
     names.map(|name| (name.clone(), load(&name))).collect()
+}
+
+fn all() -> Vec<(String, Scene)> {
+    all_in("")
 }
 
 fn start(scene: &Scene) -> (ArticulatedBody, State<Configuration>, Conserved) {
@@ -34,13 +41,15 @@ fn start(scene: &Scene) -> (ArticulatedBody, State<Configuration>, Conserved) {
 #[test]
 fn every_scene_is_read_and_has_a_title() {
     let scenes = all();
-    assert!(scenes.len() >= 7);
-    assert!(scenes.iter().all(|(_, scene)| scene.title.is_some()));
+    let hard = all_in("hard/");
+    assert!(scenes.len() >= 7 && hard.len() >= 12);
+    let mut titles = scenes.iter().chain(&hard).map(|(_, scene)| &scene.title);
+    assert!(titles.all(Option::is_some));
 }
 
 #[test]
 fn no_bodies_overlap() {
-    for (name, scene) in all() {
+    for (name, scene) in all().into_iter().chain(all_in("hard/")) {
         assert_eq!(scene.overlaps(), [], "{name}");
     }
 }

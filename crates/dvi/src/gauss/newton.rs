@@ -6,6 +6,7 @@ use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
+use crate::numbers::{astray, larger};
 use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
 
@@ -19,6 +20,8 @@ pub(super) struct SweepNewton<C: ContinuousSystem> {
     h: f64,
     /// The iterate.
     pub(super) x: Vec<f64>,
+    /// Where a root is expected: the first iterate.
+    expected: Vec<f64>,
     /// $X - \Phi(X)$, then the correction.
     correction: Vec<f64>,
     sweep: Sweep<C, J>,
@@ -34,6 +37,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             matrix: Factorisation::new(dim),
             h: 0.0,
             x: vec![0.0; dim],
+            expected: vec![0.0; dim],
             correction: vec![0.0; dim],
             sweep: Sweep::new(system, tableau, &varied.g),
             unknowns: vec![J::constant(0.0); dim],
@@ -48,6 +52,32 @@ impl<C: ContinuousSystem> SweepNewton<C> {
 
     pub(super) fn forget(&mut self) {
         self.h = 0.0;
+    }
+
+    /// Takes the iterate for where the root is expected.
+    pub(super) fn expect(&mut self) {
+        self.expected.copy_from_slice(&self.x);
+    }
+
+    /// How far the displacements' rates are from the expected ones, where that is more than the share `near` of them: another root's.
+    pub(super) fn astray(&self, h: f64, near: f64) -> Option<f64> {
+        let dim = self.varied.mu.dim();
+        let rates =
+            |x: &[f64]| h.abs() * x.iter().copied().fold(0.0, |max, x| larger(max, x.abs()));
+        let (mut apart, mut size) = (0.0, 0.0);
+        let stages = self
+            .x
+            .chunks_exact(2 * dim)
+            .zip(self.expected.chunks_exact(2 * dim));
+        for (x, expected) in stages {
+            let changes = x[..dim]
+                .iter()
+                .zip(&expected[..dim])
+                .map(|(x, y)| h.abs() * (x - y).abs());
+            apart = changes.fold(apart, larger);
+            size = larger(size, rates(&expected[..dim]));
+        }
+        astray(apart, size, near)
     }
 
     /// The Newton correction at the iterate, whose image the sweep has found.
@@ -90,6 +120,18 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         });
         self.matrix.factorise();
         self.h = h;
+    }
+
+    /// Whether the branch of solutions from $h = 0$, where the matrix is the identity, has turned before the iterate: its matrix is singular
+    /// where it turns.
+    pub(super) fn has_turned<R: Retraction>(
+        &mut self,
+        system: &C,
+        state: &State<C::Group>,
+        h: f64,
+    ) -> bool {
+        self.renew::<R>(system, state, h);
+        self.matrix.turns_over()
     }
 
     fn set_state(&mut self, state: &State<C::Group>) {

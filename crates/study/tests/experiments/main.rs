@@ -5,6 +5,7 @@ mod baseline;
 mod common;
 mod contenders;
 mod figure;
+mod hard;
 mod methods;
 mod problems;
 mod systems;
