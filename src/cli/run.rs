@@ -136,9 +136,10 @@ A scene:
 {example}
 The keys of a scene:
 {keys}
-Nothing acts but weight and buoyancy: the first body floats free, every joint is a free ball joint, and no scene has a
-fixed base, a hinge, a motor, a spring or damping. Forces take the library. Under a net weight the bodies speed up, and
-the energy error grows with their speed: that of lgvi in proportion to step and time.
+Nothing acts but weight, buoyancy and elastic joints: the first body floats free, every joint is a ball joint, at rest, if
+it is elastic, where both frames are aligned, and no scene has a fixed base, a hinge, a motor or damping. Forces take the
+library. Under a net weight the bodies speed up, and the energy error grows with their speed: that of lgvi in proportion
+to step and time.
 With --accuracy the step is found before the run and then fixed: one that follows the motion would give up the symplectic
 form, and the bounded energy error with it. The error it is chosen by is an estimate, by a run of shorter steps; no bound.
 A method's default step suits the motion of the built-in scene; a livelier one needs a shorter --step.

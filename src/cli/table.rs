@@ -12,7 +12,7 @@ pub const COLUMNS: &str = "  t                        time, s
   NAME.qw,.qx,.qy,.qz      attitude of the body NAME, body to reference frame: a unit quaternion,
                            its sign continuous from row to row
   NAME.wx,.wy,.wz          angular velocity of the body NAME in its own frame, rad/s
-  energy                   of bodies and fluid: kinetic, and under gravity potential, J
+  energy                   of bodies and fluid, kinetic and potential, J
   px,py,pz                 linear momentum from the velocities, in the reference frame, kg m/s
   lx,ly,lz                 angular momentum about the origin in the reference frame, kg m^2/s
   orthogonality            largest ||I - R^T R||_F over the bodies";

@@ -9,7 +9,7 @@ use crate::{ArticulatedBody, Configuration, Joint, Mass, ModelError};
 /// Energy and the momentum maps of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conserved {
-    /// Total energy of bodies and fluid, J: the kinetic one, and the potential one under a weight.
+    /// Total energy of bodies and fluid, J: the kinetic one, and the potential ones of the weight and of elastic joints.
     pub energy: f64,
     /// The kinetic part of it, J: what an error of the energy is to be compared with, wherever the origin is.
     pub kinetic: f64,
@@ -48,6 +48,7 @@ impl<M: Mass> ArticulatedBody<M> {
     pub fn conserved(&self, state: &State<Configuration>) -> Result<Conserved, ModelError> {
         let xi = self.velocity(state)?;
         let ((r0, x, r), (p0, px, p)) = (&state.g, &state.mu);
+        let potential = self.potential((r0, r), x.vec3());
         let attitudes = core::iter::once(r0).chain(r.iter());
         let momenta = core::iter::once(p0).chain(p.iter());
         let spins = attitudes
@@ -56,7 +57,7 @@ impl<M: Mass> ArticulatedBody<M> {
         let orbital = x.vec3().cross(px.vec3());
         let kinetic = 0.5 * Configuration::pair(&state.mu, &xi);
         let conserved = Conserved {
-            energy: kinetic + self.potential(&state.g),
+            energy: kinetic + potential,
             kinetic,
             linear: self.legendre(state.t, &state.g, &xi).1.vec3(),
             angular: spins.fold(orbital, |sum, spin| sum + spin),

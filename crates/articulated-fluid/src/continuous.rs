@@ -30,18 +30,19 @@ impl<M: Mass> ArticulatedBody<M> {
         velocities
     }
 
-    /// $U$, J; without a weight zero.
-    pub(crate) fn potential<S: Scalar>(&self, (r0, x, r): &Configuration<S>) -> S {
-        let attitudes = core::iter::once(r0).chain(r.iter());
-        let weight = self.weight.as_ref();
-        weight.map_or(S::zero(), |weight| weight.potential(x.vec3(), attitudes))
+    /// $U$, J, of the weight and of the elastic joints; without them zero.
+    pub(crate) fn potential<S: Scalar>(&self, r: Attitudes<S>, x: Vec3<S>) -> S {
+        let attitudes = core::iter::once(r.0).chain(r.1);
+        let weight = self.weight.as_ref().map(|w| w.potential(x, attitudes));
+        let springs = self.springs.as_ref().map(|s| s.potential(r));
+        weight.unwrap_or(S::zero()) + springs.unwrap_or(S::zero())
     }
 }
 
 impl<M: Mass> Lagrangian for ArticulatedBody<M> {
     type Group = Configuration;
 
-    /// The kinetic energy (6), less the potential of the weight.
+    /// The kinetic energy (6), less the potential of the weight and of the elastic joints.
     fn value<S: Scalar>(&self, g: &Configuration<S>, xi: &AlgebraOver<Configuration, S>) -> S {
         let velocities = self.centre_velocities((&g.0, &g.2), xi);
         let mut twice = S::zero();
@@ -49,7 +50,7 @@ impl<M: Mass> Lagrangian for ArticulatedBody<M> {
             let omega = of((&xi.0, &xi.2), i).vec3();
             twice += v.dot(self.masses[i].apply(v)) + omega.dot(node.j.apply(omega));
         }
-        twice.times(0.5) - self.potential(g)
+        twice.times(0.5) - self.potential((&g.0, &g.2), g.1.vec3())
     }
 
     /// (10) with the rows of (4): with $F_i = M_i V_i + \sum_k C_k F_k$,
@@ -116,6 +117,9 @@ impl<M: Mass> ContinuousSystem for ArticulatedBody<M> {
                 let tau = of_mut((&mut tau.0, &mut tau.2), i);
                 *tau = (tau.vec3() + weight.torque(i, of((r0, r), i))).into();
             }
+        }
+        if let Some(springs) = &self.springs {
+            springs.add_torques((r0, r), S::one(), (&mut tau.0, &mut tau.2));
         }
     }
 

@@ -41,14 +41,7 @@ impl<M: Mass> ArticulatedBody<M> {
             displacements.push(b - turned);
             sum += b.dot(mb).times(0.5) - mb.dot(turned) - e.trace_with(node.jd);
         }
-        let kinetic = sum / h;
-        match &self.weight {
-            None => kinetic,
-            Some(weight) => {
-                let attitudes = core::iter::once(r.0).chain(r.1);
-                kinetic - h * weight.potential(x, attitudes)
-            }
-        }
+        sum / h - h * self.potential(r, x)
     }
 }
 
@@ -157,6 +150,9 @@ impl<M: Mass> ArticulatedBody<M> {
             let slot = of_mut((&mut d_g.0, &mut d_g.2), node.parent);
             let swept = turn(parent) * node.lever.lift();
             *slot = (slot.vec3() + swept.cross(on_parent)).into();
+        }
+        if let Some(springs) = &self.springs {
+            springs.add_torques(r, h, (&mut d_g.0, &mut d_g.2));
         }
         let falling = self.weight.as_ref().map(|weight| weight.force::<S>() * h);
         d_g.1 = falling.unwrap_or(Vec3::zero()).into();

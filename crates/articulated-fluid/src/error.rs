@@ -59,6 +59,24 @@ pub enum ModelError {
         /// Net masses given.
         found: usize,
     },
+    /// There is not one stiffness for each joint.
+    #[error("there are {found} stiffnesses for {expected} joints; expected one for each")]
+    Stiffnesses {
+        /// Joints of the model.
+        expected: usize,
+        /// Stiffnesses given.
+        found: usize,
+    },
+    /// A stiffness is negative or not finite.
+    #[error(
+        "the stiffness of the joint of body {body} is {stiffness:?}; expected a finite number >= 0, in N m"
+    )]
+    Stiffness {
+        /// Index of the body that hangs on the joint.
+        body: usize,
+        /// The stiffness given, N m.
+        stiffness: f64,
+    },
     /// A state has, or leads to, a number that is not finite.
     #[error("the state's {quantity} is not finite; check attitudes, velocities and the step")]
     NotFinite {

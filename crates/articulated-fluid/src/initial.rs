@@ -27,11 +27,19 @@ impl Scene {
         let bodies: Vec<_> = self.bodies.iter().map(body).collect();
         let joints: Vec<_> = self.joints.iter().map(joint).collect();
         let model = ArticulatedBody::new(&bodies, &joints)?;
+        let model = model.with_stiffness(&self.stiffnesses())?;
         if !self.has_weight() {
             return Ok(model);
         }
         let net_masses: Vec<f64> = self.bodies.iter().map(|body| body.net_mass).collect();
         model.with_gravity(Vec3(self.gravity), &net_masses)
+    }
+
+    /// In the order of the bodies that hang on the joints.
+    fn stiffnesses(&self) -> Vec<f64> {
+        let mut joints: Vec<&SceneJoint> = self.joints.iter().collect();
+        joints.sort_by_key(|joint| joint.child);
+        joints.into_iter().map(|joint| joint.stiffness).collect()
     }
 
     /// Whether gravity acts on a body that is heavier or lighter than what it displaces.

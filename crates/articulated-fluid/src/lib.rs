@@ -58,6 +58,7 @@ pub mod planar;
 pub mod scene;
 mod semidirect;
 mod smallest;
+mod springs;
 mod weight;
 
 pub use conserved::Conserved;

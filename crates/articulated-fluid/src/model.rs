@@ -5,6 +5,7 @@ use core::ops::Range;
 use lie::{Mat3, Power, R3, SO3, Sym3, Vec3};
 
 use crate::elimination::Link;
+use crate::springs::Springs;
 use crate::weight::Weight;
 use crate::{Mass, ModelError};
 
@@ -66,6 +67,7 @@ pub struct ArticulatedBody<M = Mat3> {
     /// A parent stands before its children.
     pub(crate) nodes: Vec<Node>,
     pub(crate) weight: Option<Weight>,
+    pub(crate) springs: Option<Springs>,
     /// Whether the translation is kept as an unknown, though it could be eliminated.
     pub(crate) keeps_translation: bool,
 }
@@ -124,6 +126,7 @@ impl ArticulatedBody {
                 masses: bodies.iter().map(|body| body.mass).collect(),
                 nodes,
                 weight: None,
+                springs: None,
                 keeps_translation: false,
             }),
         }
@@ -145,6 +148,7 @@ impl ArticulatedBody {
             masses: self.masses.iter().map(number).collect::<Option<_>>()?,
             nodes: self.nodes.clone(),
             weight: self.weight.clone(),
+            springs: self.springs.clone(),
             keeps_translation: self.keeps_translation,
         })
     }
@@ -166,6 +170,46 @@ impl<M: Mass> ArticulatedBody<M> {
             return Err(ModelError::NotFinite { quantity: "weight" });
         }
         self.weight = Some(weight);
+        Ok(self)
+    }
+
+    /// The same bodies on elastic joints, at rest where the frames of body and parent are aligned: the potential of a joint is
+    /// $k (1 - \cos\theta)$ with the angle $\theta$ between these and the stiffness $k \ge 0$, N m; zero is a free joint.
+    ///
+    /// The stiffnesses are in the order of [`joints`](Self::joints).
+    ///
+    /// # Errors
+    /// [`ModelError::Stiffnesses`] where there is not one for each joint; [`ModelError::Stiffness`] where one is negative or not finite.
+    ///
+    /// ```
+    /// use articulated_fluid::{ArticulatedBody, Body, Joint};
+    /// use dvi::State;
+    /// use lie::{LieGroup, Mat3, SO3, Tangent, Vec3};
+    ///
+    /// let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
+    /// let (at_parent, at_child) = (Vec3([0.6, 0.0, 0.0]), Vec3([-0.6, 0.0, 0.0]));
+    /// let pair = ArticulatedBody::new(&[body; 2], &[Joint { parent: 0, child: 1, at_parent, at_child }])?;
+    /// let elastic = pair.with_stiffness(&[5.0])?;
+    /// let mut g = elastic.aligned();
+    /// g.2[0] = SO3::exp(&Tangent([0.0, 0.0, 0.3]));
+    /// let mu = g.zero_dual();
+    /// let energy = elastic.conserved(&State { t: 0.0, g, mu })?.energy;
+    /// assert!((energy - 5.0 * (1.0 - 0.3_f64.cos())).abs() < 1e-15);
+    /// # Ok::<(), articulated_fluid::ModelError>(())
+    /// ```
+    pub fn with_stiffness(mut self, stiffnesses: &[f64]) -> Result<Self, ModelError> {
+        let (expected, found) = (self.nodes.len() - 1, stiffnesses.len());
+        if expected != found {
+            return Err(ModelError::Stiffnesses { expected, found });
+        }
+        let sound = |k: &f64| k.is_finite() && *k >= 0.0;
+        if let Some(joint) = stiffnesses.iter().position(|k| !sound(k)) {
+            return Err(ModelError::Stiffness {
+                body: joint + 1,
+                stiffness: stiffnesses[joint],
+            });
+        }
+        self.springs = Springs::new(stiffnesses, &self.nodes);
         Ok(self)
     }
 

@@ -170,7 +170,7 @@ impl Scene {
         Reduction {
             name: "weight",
             taken: !self.has_weight(),
-            drops: "the potential and its forces".to_owned(),
+            drops: "its potential and its forces".to_owned(),
             why,
         }
     }

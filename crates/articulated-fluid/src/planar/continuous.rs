@@ -31,18 +31,20 @@ impl PlanarBody {
         velocities
     }
 
-    /// $U$, J; without a weight zero.
+    /// $U$, J, of the weight and of the elastic joints; without them zero.
     pub(super) fn potential<S: Scalar>(&self, (r0, x, r): &PlanarConfiguration<S>) -> S {
         let attitudes = core::iter::once(r0).chain(r.iter());
         let weight = self.weight.as_ref();
-        weight.map_or(S::zero(), |weight| weight.potential(Vec2(x.0), attitudes))
+        let weight = weight.map(|w| w.potential(Vec2(x.0), attitudes));
+        let springs = self.springs.as_ref().map(|s| s.potential((r0, r)));
+        weight.unwrap_or(S::zero()) + springs.unwrap_or(S::zero())
     }
 }
 
 impl Lagrangian for PlanarBody {
     type Group = PlanarConfiguration;
 
-    /// The kinetic energy (6), less the potential of the weight.
+    /// The kinetic energy (6), less the potential of the weight and of the elastic joints.
     fn value<S: Scalar>(
         &self,
         g: &PlanarConfiguration<S>,
@@ -121,6 +123,9 @@ impl ContinuousSystem for PlanarBody {
             for i in 0..self.nodes.len() {
                 of_mut((&mut tau.0, &mut tau.2), i)[0] += weight.torque(i, of((r0, r), i));
             }
+        }
+        if let Some(springs) = &self.springs {
+            springs.add_torques((r0, r), S::one(), (&mut tau.0, &mut tau.2));
         }
     }
 

@@ -145,6 +145,9 @@ impl PlanarBody {
             let slot = &mut of_mut((&mut d_g.0, &mut d_g.2), node.parent)[0];
             *slot += swept.cross(on_parent);
         }
+        if let Some(springs) = &self.springs {
+            springs.add_torques(r, h, (&mut d_g.0, &mut d_g.2));
+        }
         let falling = self.weight.as_ref().map(|weight| weight.force::<S>() * h);
         d_g.1.0 = falling.unwrap_or(Vec2::zero()).0;
     }

@@ -76,6 +76,9 @@ pub enum NotPlanarCause {
     /// Gravity has a part along the normal.
     #[error("gravity is not in the plane")]
     GravityOffPlane,
+    /// The normal has not one direction in the frames of both bodies of an elastic joint, which aligns these at rest.
+    #[error("an elastic joint turns a body out of the plane")]
+    SpringOffPlane,
     /// The state is not one of the model, or has a number that is not finite.
     #[error("the state does not fit the model (another number of bodies?) or is not finite")]
     State,

@@ -8,6 +8,7 @@ use super::plane::first_and_rest;
 use super::{NotPlanar, NotPlanarCause};
 use crate::elimination::{Momentum, Velocity, of};
 use crate::model::Node;
+use crate::springs::{Spring, Springs};
 use crate::{ArticulatedBody, Configuration, Mass};
 
 /// Violations up to this are those of rounding.
@@ -156,7 +157,8 @@ impl<'a, M: Mass> Motion<'a, M> {
     }
 
     /// Unit vectors that may be the normal, in the reference frame: the coordinate axes, the angular velocity of the fastest
-    /// body, what is normal to what lies in the plane, and the principal axes of the first body and of the whole.
+    /// body, what is normal to what lies in the plane, the axis of the largest twist, and the principal axes of the first body and
+    /// of the whole.
     fn candidates(&self) -> Vec<Vec3> {
         let bodies = 0..self.model.nodes.len();
         let faster = |a: &usize, b: &usize| self.rate(*a).norm().total_cmp(&self.rate(*b).norm());
@@ -171,6 +173,7 @@ impl<'a, M: Mass> Motion<'a, M> {
         // These whatever their lengths: a velocity is short next to a fast spin.
         candidates.extend([gravity.cross(velocity), velocity.cross(longest)]);
         candidates.push(longest.cross(gravity));
+        candidates.push(self.twist());
         candidates.extend(principal_axes(first));
         candidates.extend(principal_axes(self.shape(&in_plane)));
         candidates.retain(|n| n.is_finite() && n.norm() > 0.0);
@@ -205,6 +208,17 @@ impl<'a, M: Mass> Motion<'a, M> {
         let acts = weight.filter(|weight| !weight.is_balanced());
         let gravity = acts.map_or(Vec3::zero(), |weight| weight.gravity());
         gravity * (1.0 / gravity.norm().max(f64::MIN_POSITIVE))
+    }
+
+    fn springs(&self) -> impl Iterator<Item = &Spring> {
+        self.model.springs.iter().flat_map(Springs::iter)
+    }
+
+    /// The largest torque of an elastic joint, in the reference frame.
+    fn twist(&self) -> Vec3 {
+        let r = (&self.state.g.0, &self.state.g.2[..]);
+        let torque = |spring: &Spring| of(r, spring.child).rotate(spring.torque(r));
+        longest(&self.springs().map(torque).collect::<Vec<_>>())
     }
 
     /// A symmetric matrix with the normal as a principal axis, as it is one of each term: masses, inertias, $x x^T$ in the plane.
@@ -255,7 +269,12 @@ impl<'a, M: Mass> Motion<'a, M> {
             body: 0,
             defect: ratio(n.dot(force), force.norm()),
         };
-        of_bodies.chain([velocity, weight])
+        let springs = self.springs().map(move |spring| Violation {
+            what: NotPlanarCause::SpringOffPlane,
+            body: spring.child,
+            defect: self.spring_off_plane(spring, n),
+        });
+        of_bodies.chain([velocity, weight]).chain(springs)
     }
 
     fn violations_of(&self, i: usize, n: Vec3) -> impl Iterator<Item = Violation> {
@@ -298,6 +317,13 @@ impl<'a, M: Mass> Motion<'a, M> {
         let off = 0.5 * (start + half).norm();
         let in_plane = normal.dot(start).hypot(normal.dot(quarter));
         ratio(off, in_plane.hypot(off))
+    }
+
+    /// How far apart the normals in the frames of both bodies are, which the joint aligns at rest.
+    fn spring_off_plane(&self, spring: &Spring, n: Vec3) -> f64 {
+        let [on, normal] =
+            [spring.parent, spring.child].map(|body| self.attitude(body).inverse_rotate(n));
+        (normal - on).norm()
     }
 
     /// The largest part of a $\dot p_i$ perpendicular to the normal, N m.

@@ -2,7 +2,7 @@
 //!
 //! Where the normal $n$ of a plane is, in every body's frame, a principal direction of its mass and its inertia, where the
 //! joints, the velocity and the gravity lie in the plane and the bodies spin about $n$, the motion stays so: no force leads
-//! out of it. Rotations are then angles and the group is abelian, $SO(2) \times \mathbb{R}^2 \times SO(2)^n$.
+//! out of it. An elastic joint aligns the frames of its bodies: where $n$ has one direction in both, it only turns them about $n$. Rotations are then angles and the group is abelian, $SO(2) \times \mathbb{R}^2 \times SO(2)^n$.
 //!
 //! [`Plane::find`] finds the plane of a model and a state; [`PlanarBody`] is the model in it, with the discrete and the
 //! continuous Lagrangian of [`ArticulatedBody`](crate::ArticulatedBody) restricted to the plane, the same functions; and
@@ -40,6 +40,7 @@ mod find;
 mod frame;
 mod in_plane;
 mod plane;
+mod springs;
 mod vector;
 mod weight;
 
@@ -48,6 +49,7 @@ use core::ops::Range;
 use lie::{Power, Rn, SO2};
 
 use crate::elimination::of;
+use springs::Springs;
 use vector::{Sym2, Vec2};
 use weight::Weight;
 
@@ -73,6 +75,7 @@ pub struct PlanarBody {
     /// A parent stands before its children.
     nodes: Vec<Node>,
     weight: Option<Weight>,
+    springs: Option<Springs>,
     /// Whether the translation is kept as an unknown, though it could be eliminated.
     keeps_translation: bool,
 }

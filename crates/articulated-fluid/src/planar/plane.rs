@@ -4,6 +4,7 @@ use dvi::State;
 use lie::{Cotangent, LieGroup, Power, Rn, SO2, SO3, Vec3};
 
 use super::frame::Frame;
+use super::springs::{Spring, Springs};
 use super::vector::Vec2;
 use super::weight::Weight;
 use super::{Node, NotPlanar, PlanarBody, PlanarConfiguration, find};
@@ -34,7 +35,7 @@ impl Plane {
     /// The plane that is a mirror of the model and of the motion from this state, to rounding.
     ///
     /// The normal is a principal direction of each body's mass and inertia, the joints, the velocity and the gravity lie in
-    /// the plane, and the bodies spin about the normal.
+    /// the plane, and the bodies spin about the normal. That has one direction in the frames of both bodies of an elastic joint.
     ///
     /// # Errors
     /// [`NotPlanar`], with what violates the best plane, and by how much.
@@ -53,6 +54,7 @@ impl Plane {
             model: PlanarBody {
                 nodes: nodes(model, &bodies),
                 weight: None,
+                springs: None,
                 keeps_translation: model.keeps_translation,
             },
             world,
@@ -61,6 +63,7 @@ impl Plane {
             length: found.length,
         };
         plane.model.weight = plane.weight(model);
+        plane.model.springs = plane.springs(model);
         Ok(plane)
     }
 
@@ -188,6 +191,18 @@ impl Plane {
             total: self.world.project(weight.force()),
             levers: (0..self.bodies.len()).map(lever).collect(),
         })
+    }
+
+    /// $\alpha_i$ is the angle of $N_p^T N_i$.
+    fn springs<M: Mass>(&self, model: &ArticulatedBody<M>) -> Option<Springs> {
+        let elastic = model.springs.as_ref()?.iter();
+        let spring = |spring: &crate::springs::Spring| Spring {
+            parent: spring.parent,
+            child: spring.child,
+            stiffness: spring.stiffness,
+            rest: self.bodies[spring.parent].angle_of(&SO3::identity(), &self.bodies[spring.child]),
+        };
+        Some(Springs(elastic.map(spring).collect()))
     }
 }
 

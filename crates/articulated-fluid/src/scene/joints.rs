@@ -7,7 +7,7 @@ use super::bodies::Names;
 use super::error::SceneError;
 use super::raw::{Node, RawJoint};
 use super::source::{Source, quote};
-use super::values::array;
+use super::values::{array, not_negative_or_zero};
 
 /// The joints between the bodies of these `names`.
 pub(super) fn check(
@@ -47,6 +47,7 @@ fn joint(node: &Node<RawJoint>, names: &Names, source: &Source) -> Result<SceneJ
         child,
         at_parent: array(source.require(node, "at_parent", &raw.at_parent)?, source)?,
         at_child: array(source.require(node, "at_child", &raw.at_child)?, source)?,
+        stiffness: not_negative_or_zero(raw.stiffness.as_ref(), source)?,
     })
 }
 

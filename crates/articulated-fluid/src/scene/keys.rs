@@ -199,6 +199,13 @@ pub const KEYS: &[Key] = &[
         REQUIRED,
         "the joint from the child's mass centre, in the child's frame",
     ),
+    key(
+        "joint.stiffness",
+        "a finite number >= 0, in N m",
+        "0: a free joint",
+        "k of the potential k (1 - cos theta), theta the angle between the frames of parent and child: \
+         the joint is at rest where they are aligned",
+    ),
 ];
 
 /// [`KEYS`] as text to show to users.

@@ -95,6 +95,8 @@ pub struct SceneJoint {
     pub at_parent: [f64; 3],
     /// The joint from the child's mass centre, in the child's frame, m.
     pub at_child: [f64; 3],
+    /// Stiffness $k \ge 0$ against turns from where both bodies' frames are aligned, N m; 0 for a free joint.
+    pub stiffness: f64,
 }
 
 impl Scene {

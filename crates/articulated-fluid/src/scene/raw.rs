@@ -80,6 +80,7 @@ pub(super) struct RawJoint {
     pub child: Field<String>,
     pub at_parent: Field<Vec<f64>>,
     pub at_child: Field<Vec<f64>>,
+    pub stiffness: Field<f64>,
 }
 
 /// An element of a diagonal, or a row of a matrix.

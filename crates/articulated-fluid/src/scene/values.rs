@@ -22,6 +22,14 @@ pub(super) fn not_negative(field: &Spanned<f64>, source: &Source) -> Result<f64,
     number(field, |value| value >= 0.0, source)
 }
 
+/// A number that is finite and >= 0, zero if the key is missing.
+pub(super) fn not_negative_or_zero(
+    field: Option<&Spanned<f64>>,
+    source: &Source,
+) -> Result<f64, SceneError> {
+    field.map_or(Ok(0.0), |field| not_negative(field, source))
+}
+
 /// An array of `N` finite numbers.
 pub(super) fn array<const N: usize>(
     field: &Spanned<Vec<f64>>,

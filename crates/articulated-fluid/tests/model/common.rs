@@ -24,6 +24,8 @@ pub struct Sample {
     pub joints: Vec<Joint>,
     /// Gravity and the net mass of each body.
     pub weight: Option<(Vec3, Vec<f64>)>,
+    /// Of each joint.
+    pub stiffnesses: Vec<f64>,
     pub model: ArticulatedBody,
     pub g: Configuration,
     pub f: Configuration,
@@ -44,9 +46,10 @@ pub fn build(
 }
 
 impl Sample {
-    /// The same with other masses or weights.
+    /// The same with other masses, weights or stiffnesses.
     pub fn rebuilt(mut self) -> Self {
-        self.model = build(&self.bodies, &self.joints, &self.weight);
+        let model = build(&self.bodies, &self.joints, &self.weight);
+        self.model = model.with_stiffness(&self.stiffnesses).expect("springs");
         self
     }
 
@@ -97,11 +100,19 @@ impl Sample {
         centres
     }
 
-    /// $U = -\sum_i m_i \gamma \cdot x_i$.
+    /// $U = -\sum_i m_i \gamma \cdot x_i + \sum_i k_i (1 - \cos\theta_i)$.
     pub fn potential<S: Scalar>(&self, g: &Configuration<S>) -> S {
         let (gravity, masses) = self.weights();
         let weighed = masses.into_iter().zip(self.centres(g));
-        weighed.fold(S::zero(), |sum, (m, x)| sum - (gravity * m).lift().dot(x))
+        let weight = weighed.fold(S::zero(), |sum, (m, x)| sum - (gravity * m).lift().dot(x));
+        let attitude = |i: usize| if i == 0 { &g.0 } else { &g.2[i - 1] };
+        let elastic = self.joints.iter().zip(&self.stiffnesses);
+        elastic.fold(weight, |sum, (joint, k)| {
+            let turn = attitude(joint.parent)
+                .inverse()
+                .compose(attitude(joint.child));
+            sum + (S::from_f64(3.0) - turn.matrix().trace()).times(0.5 * k)
+        })
     }
 
     /// $\sum_i x_i \times m_i \gamma$: the moment of the weights about the origin.
@@ -232,6 +243,12 @@ fn weight(bodies: usize) -> impl Strategy<Value = Option<(Vec3, Vec<f64>)>> {
     })
 }
 
+/// Free joints, and elastic ones among them.
+pub fn stiffnesses(joints: usize) -> impl Strategy<Value = Vec<f64>> {
+    let some = prop::collection::vec(prop_oneof![Just(0.0), 0.1..3.0], joints);
+    prop_oneof![Just(vec![0.0; joints]), some]
+}
+
 /// A tree of `others` bodies beside the first. Attitudes anywhere, the displacement up to `size` in angle and length.
 pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value = Sample> {
     let parents: Vec<_> = (1..=others).map(|i| shape.parents(i)).collect();
@@ -240,13 +257,13 @@ pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value 
     let turns = prop::collection::vec(displacement().prop_map(|w| SO3::exp(&w.into())), others + 1);
     (
         prop::collection::vec(body(), others + 1),
-        (parents, points, weight(others + 1)),
+        (parents, points, weight(others + 1), stiffnesses(others)),
         (vector(5.0), prop::collection::vec(attitude(), others + 1)),
         (displacement(), turns),
         (vector(1.0), prop::collection::vec(vector(1.0), others + 1)),
     )
         .prop_map(
-            |(bodies, (parents, points, weight), (x, r), (dx, f), (v, omega))| {
+            |(bodies, (parents, points, weight, stiffnesses), (x, r), (dx, f), (v, omega))| {
                 let joint = |(i, (parent, (at_parent, at_child)))| Joint {
                     parent,
                     child: i + 1,
@@ -266,10 +283,12 @@ pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value 
                     bodies,
                     joints,
                     weight,
+                    stiffnesses,
                     g: pose(x, &r),
                     f: pose(dx, &f),
                     xi: (rates[0], v.into(), Power::new(rates[1..].to_vec())),
                 }
+                .rebuilt()
             },
         )
 }
@@ -279,12 +298,13 @@ pub fn any_sample() -> impl Strategy<Value = Sample> {
     (0..=4_usize, sizes()).prop_flat_map(|(others, size)| sample_of(Shape::Any, others, size))
 }
 
-/// The paper's three bodies: a star without a weight.
+/// The paper's three bodies: a star without a weight, on free joints.
 pub fn three_bodies() -> impl Strategy<Value = Sample> {
     sizes().prop_flat_map(|size| {
         sample_of(Shape::Star, 2, size).prop_map(|sample| {
             Sample {
                 weight: None,
+                stiffnesses: vec![0.0; 2],
                 ..sample
             }
             .rebuilt()

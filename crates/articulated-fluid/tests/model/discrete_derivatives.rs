@@ -23,11 +23,17 @@ fn scale(sample: &Sample) -> f64 {
     30.0 * turns.fold(sample.f.1.vec3().norm(), f64::max)
 }
 
-/// The size of the weights' part, times $h$: forces times lengths.
+/// The size of the weights' and the elastic joints' part, times $h$: forces times lengths, and potentials.
 fn weighs(sample: &Sample) -> f64 {
     let (gravity, masses) = sample.weights();
     let sizes = masses.iter().zip(sample.centres(&sample.g));
-    gravity.norm() * H * H * sizes.map(|(m, x)| m.abs() * (1.0 + x.norm())).sum::<f64>()
+    let weight = gravity.norm() * sizes.map(|(m, x)| m.abs() * (1.0 + x.norm())).sum::<f64>();
+    H * H * (weight + elastic(sample))
+}
+
+/// The most that the potential of the elastic joints can be.
+fn elastic(sample: &Sample) -> f64 {
+    2.0 * sample.stiffnesses.iter().sum::<f64>()
 }
 
 proptest! {
@@ -95,9 +101,9 @@ proptest! {
         }
         let force = sample.force();
         assert_close(&here.d_g.1.0, &(force * H).0, 1e-15 * H * force.norm());
-        // Rounding of forces times the way.
+        // Rounding of forces times the way, and of what cancels in the value.
         let work = force.dot(x - g.1.vec3()) * H;
-        let size = value(g).abs() + H * force.norm() * x.norm();
+        let size = value(g).abs() + H * (force.norm() * x.norm() + elastic(&sample));
         assert_close(&[value(&elsewhere) - value(g)], &[work], 1e-15 * size);
         let cyclic = if sample.floats() { 3..6 } else { 0..0 };
         prop_assert_eq!(DiscreteLagrangian::cyclic(model), cyclic.clone());

@@ -6,7 +6,7 @@ use dvi::{Lagrangian, State};
 use lie::{AlgebraOver, LieGroup, Mat3, Power, Rn, SO2, SO3, Tangent, Vec3};
 use proptest::prelude::*;
 
-use crate::common::{attitude, spd};
+use crate::common::{attitude, spd, stiffnesses};
 
 /// A tree in the plane $z = 0$, body by body, each with the frame and the motion that it is given.
 #[derive(Clone, Debug)]
@@ -22,6 +22,8 @@ pub struct Part {
     pub angle: f64,
     pub rate: f64,
     pub net_mass: f64,
+    /// Of the joint to the parent.
+    pub stiffness: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -59,7 +61,9 @@ impl Flat {
             }
         };
         let joints: Vec<Joint> = (1..self.parts.len()).map(joint).collect();
+        let stiffnesses: Vec<f64> = self.parts[1..].iter().map(|p| p.stiffness).collect();
         let model = ArticulatedBody::new(&bodies, &joints).expect("a model");
+        let model = model.with_stiffness(&stiffnesses).expect("a model");
         let Some(gravity) = self.gravity else {
             return model;
         };
@@ -136,11 +140,25 @@ fn part() -> impl Strategy<Value = Part> {
                 angle,
                 rate,
                 net_mass,
+                stiffness: 0.0,
             },
         )
 }
 
-/// One to five bodies, with and without a weight.
+/// The same with joints of these stiffnesses: frames on an elastic one differ by a turn in the plane.
+pub fn elastic(mut flat: Flat, stiffnesses: &[f64]) -> Flat {
+    for (i, stiffness) in (1..flat.parts.len()).zip(stiffnesses) {
+        let on = flat.parts[flat.parts[i].parent % i].frame;
+        let part = &mut flat.parts[i];
+        part.stiffness = *stiffness;
+        if *stiffness != 0.0 {
+            part.frame = on.compose(&about_z(0.7 * i as f64));
+        }
+    }
+    flat
+}
+
+/// One to five bodies, with and without a weight, on free and elastic joints.
 pub fn any_flat() -> impl Strategy<Value = Flat> {
     let position = prop::array::uniform3(-5.0..5.0);
     let parts = prop::collection::vec(part(), 1..=5);
@@ -150,13 +168,17 @@ pub fn any_flat() -> impl Strategy<Value = Flat> {
         position,
         point(),
         prop::option::of(point()),
+        stiffnesses(4),
     )
-        .prop_map(|(parts, world, position, velocity, gravity)| Flat {
-            parts,
-            world,
-            position,
-            velocity,
-            gravity,
+        .prop_map(|(parts, world, position, velocity, gravity, stiffnesses)| {
+            let flat = Flat {
+                parts,
+                world,
+                position,
+                velocity,
+                gravity,
+            };
+            elastic(flat, &stiffnesses)
         })
 }
 
@@ -181,6 +203,7 @@ pub fn fish() -> Flat {
         angle,
         rate,
         net_mass: 0.0,
+        stiffness: 0.0,
     };
     Flat {
         parts: vec![

@@ -13,4 +13,5 @@ mod paper_formulas;
 mod planar;
 mod planar_plane;
 mod scenes_files;
+mod springs;
 mod tree;

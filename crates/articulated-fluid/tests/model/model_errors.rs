@@ -175,6 +175,36 @@ fn a_weight_that_is_none_is_refused() {
 }
 
 #[test]
+fn a_stiffness_that_is_none_is_refused() {
+    let joints = [joint(0, 1), joint(1, 2)];
+    let model = ArticulatedBody::new(&[sound(); 3], &joints).expect("a model");
+    for found in [0, 1, 3] {
+        let refused = model.clone().with_stiffness(&vec![1.0; found]);
+        let expected = ModelError::Stiffnesses { expected: 2, found };
+        assert_eq!(refused, Err(expected));
+    }
+    for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1e-300] {
+        let refused = model
+            .clone()
+            .with_stiffness(&[2.0, x])
+            .expect_err("no spring");
+        assert!(matches!(refused, ModelError::Stiffness { body: 2, .. }));
+        let message = format!("the stiffness of the joint of body 2 is {x:?}");
+        assert!(refused.to_string().starts_with(&message), "{refused}");
+    }
+    // Without stiffness it is the same model.
+    let free = model
+        .clone()
+        .with_stiffness(&[0.0, -0.0])
+        .expect("free joints");
+    assert_eq!(free, model);
+    assert_ne!(
+        model.clone().with_stiffness(&[0.0, 1.0]).expect("springs"),
+        model
+    );
+}
+
+#[test]
 fn a_state_with_another_number_of_bodies_is_refused() {
     let joints = [joint(0, 1), joint(0, 2)];
     let model = ArticulatedBody::new(&[sound(); 3], &joints).expect("a model");
@@ -267,6 +297,7 @@ proptest! {
         // The joints may come in any order.
         let mut shuffled = joints.clone();
         shuffled.rotate_left(turn.min(joints.len()));
-        prop_assert_eq!(&build(bodies, &shuffled, &sample.weight), model);
+        let shuffled = build(bodies, &shuffled, &sample.weight);
+        prop_assert_eq!(&shuffled.with_stiffness(&sample.stiffnesses).expect("springs"), model);
     }
 }

@@ -185,7 +185,13 @@ fn run(integrator: &mut Stepper, state: &mut State<Configuration>, steps: u32, h
 
 #[test]
 fn ten_seconds_are_those_in_space() {
-    let flat = moved(fish(), 0.4);
+    let free = moved(fish(), 0.4);
+    for flat in [elastic(free.clone(), &[2.0, 0.5]), free] {
+        assert_ten_seconds_are_those_in_space(&flat);
+    }
+}
+
+fn assert_ten_seconds_are_those_in_space(flat: &Flat) {
     let (full, plane, start) = (flat.model(), flat.plane(), flat.state());
     let lgvi = InPlane::new(plane.clone(), Variational::with_inertia(plane.model()));
     let gauss = InPlane::new(plane.clone(), Gauss::<_, 4>::new(plane.model()));

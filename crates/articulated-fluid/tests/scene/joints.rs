@@ -1,5 +1,7 @@
 //! Trees, and what is none.
 
+use articulated_fluid::ModelError;
+
 use crate::{assert_refused, parse, refusal};
 
 #[test]
@@ -62,6 +64,27 @@ fn any_body_hangs_on_any_listed_before() {
         assert_eq!(scene.joints.len() + 1, names.len());
         assert!(scene.joints.iter().all(|joint| joint.parent < joint.child));
     }
+}
+
+/// Stiffnesses go with the joints, in whatever order these are listed.
+#[test]
+fn a_model_has_the_stiffness_of_each_joint() {
+    let mut scene = parse(&tree("abcd", "cd ab ac"));
+    let free = scene.model().expect("a model");
+    for (joint, stiffness) in scene.joints.iter_mut().zip([3.0, 1.0, 2.0]) {
+        joint.stiffness = stiffness;
+    }
+    // Of b, c and d.
+    let elastic = free.clone().with_stiffness(&[1.0, 2.0, 3.0]);
+    assert_eq!(scene.model(), elastic);
+    scene
+        .joints
+        .iter_mut()
+        .for_each(|joint| joint.stiffness = 0.0);
+    assert_eq!(scene.model(), Ok(free));
+    scene.joints[0].stiffness = f64::NAN;
+    let refused = scene.model().expect_err("no spring");
+    assert!(matches!(refused, ModelError::Stiffness { body: 3, .. }));
 }
 
 #[test]

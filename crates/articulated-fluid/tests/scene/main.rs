@@ -39,6 +39,7 @@ parent = "head"
 child = "tail-1"
 at_parent = [1, 0, 0]
 at_child = [-2, 0, 0.5]
+stiffness = 2.5
 "#;
 
 /// One mistake: the text to be replaced in [`GOOD`], the replacement, and the whole message.
@@ -94,6 +95,7 @@ fn every_key_is_read() {
     assert_eq!((second.parent, second.child), (0, 1));
     assert_eq!(second.at_parent, [1.0, 0.0, 0.0]);
     assert_eq!(second.at_child, [-2.0, 0.0, 0.5]);
+    assert_eq!((first.stiffness, second.stiffness), (0.0, 2.5));
 }
 
 #[test]

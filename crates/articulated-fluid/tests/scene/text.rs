@@ -95,6 +95,11 @@ fn wrong_types_are_refused() {
             "f.toml:1:1: title: wrong type: integer `3`; expected a string",
         ),
         (
+            "stiffness = 2.5",
+            "stiffness = [1, 2, 3]",
+            "f.toml:30:1: joint.stiffness: wrong type: array; expected a finite number >= 0, in N m",
+        ),
+        (
             "position = [1, 2, 3]",
             "position = 1",
             "f.toml:5:1: start.position: wrong type: integer `1`; \

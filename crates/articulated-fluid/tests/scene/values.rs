@@ -90,6 +90,11 @@ fn what_is_not_finite_is_refused() {
              expected an array of 3 finite numbers, in m",
         ),
         (
+            "stiffness = 2.5",
+            "stiffness = inf",
+            "f.toml:30:1: joint.stiffness: is inf; expected a finite number >= 0, in N m",
+        ),
+        (
             "attitude = [0, 1, 0, 0]",
             "attitude = [0, nan, 0, 0]",
             "f.toml:11:1: body.attitude: element 2 is NaN; expected an array of 4 numbers \
@@ -117,6 +122,11 @@ fn values_out_of_range_are_refused() {
             "mass = 90",
             "mass = 0",
             "f.toml:10:1: body.mass: is 0.0; expected a finite number > 0, in kg",
+        ),
+        (
+            "stiffness = 2.5",
+            "stiffness = -2.5",
+            "f.toml:30:1: joint.stiffness: is -2.5; expected a finite number >= 0, in N m",
         ),
         (
             "semi_axes = [0.8, 0.15, 0.2]",
