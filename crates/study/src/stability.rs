@@ -8,10 +8,11 @@
 //! A run may keep all of that and still be another motion: a rigid body that turns steadily about an axis keeps its energy and its
 //! momentum at *any* rate of its attitude, and so does a step equation with two roots at the second of them. A chaotic motion can be
 //! compared with a reference over a short time only, and a method of low order in long steps is inaccurate without being wrong. So the
-//! comparison is made many times over the run, each time anew from the *method's own* state, over a window of
-//! $\max(h, 1 / \max_i \lvert \Omega_i \rvert)$: one step, or the time in which the fastest body turns by a radian. An attitude that is off by
-//! a [radian](WRONG) at its end is off by as much as the motion itself. The reference is the pair 8(5,3) [in charts](crate::on_group);
-//! where it contradicts, `gauss-8` in short steps must agree with it.
+//! comparison is made 32 times over the run, each time anew from the *method's own* state, and over a short window: one step, or twice as
+//! many and so on, until the motion has turned a body by half a radian. An attitude that is off by a [radian](WRONG) at its end is off by
+//! more than the motion itself, or, where a single step turns further, by more than a step can be wrong that still tells a direction. The
+//! reference is the pair 8(5,3) [in charts](crate::on_group); where it contradicts, `gauss-8` in short steps must agree with it. A run
+//! without any comparison is not called good.
 //!
 //! # The wall
 //! What ends where a method's steps become too long is its [`Wall`]. Of a refused step it is asked whether the equation of the step has a

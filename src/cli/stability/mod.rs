@@ -20,7 +20,7 @@ use report::Report;
 
 /// Map in which steps each method fails, and how, on a scene of your own.
 ///
-/// Runs each method in steps of every size, over multiples of one parameter of the scene, for a long time, on all processors. Writes the
+/// Runs each method in steps of every size, over one parameter of the scene, for a long time, on all processors. Writes the
 /// map (SVG and PNG) and all numbers (CSV), and prints the largest step in which each method is good and what ends there: the solver of
 /// its step, or its dynamics.
 #[derive(clap::Args)]
@@ -32,7 +32,7 @@ pub struct Args {
     /// What of the scene is varied
     #[arg(long, value_name = "NAME", default_value = "mass-ratio", value_parser = args::parameter())]
     parameter: Parameter,
-    /// Its values, separated by commas [default: five about the scene's own]
+    /// Its values, separated by commas: multiples of the scene's own, or N m [default: five of them]
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', value_parser = args::multiple, allow_hyphen_values = true)]
     values: Vec<f64>,
     /// The sizes of the steps, in seconds, separated by commas
@@ -75,8 +75,8 @@ A run is judged by the first of these that holds:
   energy-drift    the line through the energy's error moved by 1 % of it, and explains half of the error's variance
   group-left      ||I - R^T R||_F above 1e-6
   momentum-lost   a momentum off by 1e-6 of the one that the largest kinetic energy would have
-  silently-wrong  none of these, and an attitude off by a radian after one step, or the time in which the fastest body turns by a
-                  radian, from a state of the run: compared with two references, 32 times over the run
+  silently-wrong  none of these, and an attitude off by a radian from two references: 32 times over the run these start from a state
+                  of the method and follow it for one step, or for as many as turn a body by half a radian
   good            none of these
 
 What ends the good steps:

@@ -68,7 +68,7 @@ impl Report<'_> {
         core::iter::once(head.collect()).chain(rows).collect()
     }
 
-    /// The index of the value that is nearest to the scene's own.
+    /// The index of the value that is nearest to the scene's own, of a stiffness to 1 N m.
     fn own(&self) -> usize {
         let values = self.map.grid.values.iter().enumerate();
         let own = values.min_by(|(_, a), (_, b)| a.ln().abs().total_cmp(&b.ln().abs()));

@@ -44,7 +44,7 @@ pub enum Class {
     SilentlyWrong,
     /// None of these.
     Good,
-    /// Not judged: the time was over before its turn or its end.
+    /// Not judged: the time was over before its turn or its end, or there was no reference to compare with.
     NotRun,
 }
 
@@ -232,10 +232,13 @@ impl Judge {
             Class::GroupLeft
         } else if self.momentum().is_none_or(|error| error > MOMENTUM) {
             Class::MomentumLost
-        } else if self.attitude.is_some_and(|angle| angle > WRONG) {
-            Class::SilentlyWrong
         } else {
-            Class::Good
+            match self.attitude {
+                // What was never compared is not good.
+                None => Class::NotRun,
+                Some(angle) if angle > WRONG => Class::SilentlyWrong,
+                Some(_) => Class::Good,
+            }
         }
     }
 
@@ -261,5 +264,98 @@ impl Judge {
             failure,
             refused_at,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use articulated_fluid::{Scene, scene};
+    use lie::Vec3;
+
+    use super::*;
+
+    /// Samples over a run of 1000 s, the energy's error and the other quantities as functions of the time in parts of the run.
+    fn judged(change: impl Fn(f64, &mut Sample)) -> Outcome {
+        let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
+        let model = scene.model().unwrap();
+        let start = Sample::take(&model, &scene.initial_state().unwrap()).unwrap();
+        let mut judge = Judge::new(&model, start);
+        judge.compare(0.1);
+        for k in 1..=1000 {
+            let part = f64::from(k) / 1000.0;
+            let mut sample = start;
+            sample.t = 1000.0 * part;
+            change(part, &mut sample);
+            if !judge.add(&sample) {
+                return judge.judge(End::OffBand);
+            }
+        }
+        judge.judge(End::Reached)
+    }
+
+    #[test]
+    fn an_oscillation_within_the_band_is_good_and_beyond_it_ends_the_run() {
+        let wave = |size: f64| {
+            move |part: f64, sample: &mut Sample| {
+                sample.energy += size * sample.kinetic * (1000.0 * part).sin();
+            }
+        };
+        assert_eq!(judged(wave(0.09)).class, Class::Good);
+        let off = judged(wave(0.12));
+        assert_eq!(off.class, Class::EnergyBand);
+        assert!(off.t < 10.0, "{off:?}");
+    }
+
+    #[test]
+    fn a_drift_is_one_that_moves_far_enough_and_is_no_oscillation() {
+        let drift = |by: f64, wave: f64| {
+            move |part: f64, sample: &mut Sample| {
+                let error = by * part + wave * (1000.0 * part).sin();
+                sample.energy += error * sample.kinetic;
+            }
+        };
+        let drifts = judged(drift(-0.02, 0.0));
+        assert_eq!(drifts.class, Class::EnergyDrift);
+        assert!((drifts.drift.unwrap() - 0.02).abs() < 1e-6 && drifts.trend > 0.99);
+        assert_eq!(judged(drift(0.005, 0.0)).class, Class::Good);
+        assert_eq!(judged(drift(0.02, 0.05)).class, Class::Good);
+    }
+
+    #[test]
+    fn the_group_comes_before_the_momenta_and_the_energy_before_both() {
+        let group = |_: f64, sample: &mut Sample| sample.orthogonality = 2.0 * GROUP;
+        let momentum = |part: f64, sample: &mut Sample| {
+            sample.angular = sample.angular + Vec3([0.0, 0.0, 1e-3 * part]);
+        };
+        assert_eq!(judged(group).class, Class::GroupLeft);
+        let lost = judged(momentum);
+        assert_eq!(lost.class, Class::MomentumLost);
+        assert!(lost.momentum.is_some_and(|error| error > MOMENTUM));
+        let both = |part: f64, sample: &mut Sample| {
+            group(part, sample);
+            momentum(part, sample);
+        };
+        assert_eq!(judged(both).class, Class::GroupLeft);
+        let all = |part: f64, sample: &mut Sample| {
+            both(part, sample);
+            sample.energy += 0.05 * part * sample.kinetic;
+        };
+        assert_eq!(judged(all).class, Class::EnergyDrift);
+    }
+
+    #[test]
+    fn what_is_kept_and_wrong_is_wrong_and_what_was_not_compared_is_not_good() {
+        let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
+        let model = scene.model().unwrap();
+        let start = Sample::take(&model, &scene.initial_state().unwrap()).unwrap();
+        let mut judge = Judge::new(&model, start);
+        assert_eq!(judge.judge(End::Reached).class, Class::NotRun);
+        judge.compare(0.9 * WRONG);
+        assert_eq!(judge.judge(End::Reached).class, Class::Good);
+        judge.compare(1.1 * WRONG);
+        judge.compare(0.1);
+        assert_eq!(judge.judge(End::Reached).class, Class::SilentlyWrong);
+        assert_eq!(judge.judge(End::NotFinite(3.0)).class, Class::NonFinite);
+        assert_eq!(judge.judge(End::OutOfTime).class, Class::NotRun);
     }
 }

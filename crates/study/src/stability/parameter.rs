@@ -1,4 +1,6 @@
 //! What of a scene is varied.
+//!
+//! A place for another one: a variant, its names, and what it changes of a [`Scene`].
 
 use core::fmt;
 use core::str::FromStr;
@@ -12,7 +14,7 @@ use crate::contender::Problem;
 /// Masses and inertias this close to those of an ellipsoid, relative to the largest of them, are its own.
 const SAME: f64 = 1e-9;
 
-/// What of a scene is varied, in multiples of the scene's own: 1 is the scene as it is.
+/// What of a scene is varied: all but the stiffness in multiples of the scene's own, where 1 is the scene as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Parameter {
@@ -24,6 +26,8 @@ pub enum Parameter {
     Aspect,
     /// Mass and inertia, own and added, of all bodies but the head.
     MassRatio,
+    /// N m, added to the stiffness $k$ of each joint, of the potential $k (1 - \cos\theta)$ of the angle between its bodies.
+    Stiffness,
 }
 
 /// No parameter has this name.
@@ -38,10 +42,10 @@ pub struct UnknownParameter {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ParameterError {
-    /// The multiple is no positive number.
-    #[error("a scene cannot be varied {value} times; expected a finite number > 0")]
+    /// The value is no positive number.
+    #[error("the value is {value}; expected a finite number > 0")]
     Value {
-        /// The multiple.
+        /// The value.
         value: f64,
     },
     /// A body's masses do not follow from semi-axes.
@@ -54,24 +58,29 @@ pub enum ParameterError {
         body: String,
     },
     /// There is nothing but a head.
-    #[error("the scene has no tail whose mass could be varied; vary another parameter")]
-    NoTail,
+    #[error(
+        "the scene has one body alone, and {parameter} is of tails and joints; vary another parameter"
+    )]
+    NoTail {
+        /// What was to be varied.
+        parameter: Parameter,
+    },
     /// The stretched axes are no ellipsoid's.
     #[error("body {body:?} stretched {value} times: {source}")]
     Ellipsoid {
         /// Its name.
         body: String,
-        /// The multiple.
+        /// The value.
         value: f64,
         /// Why not.
         source: EllipsoidError,
     },
     /// What comes of it is no model.
-    #[error("at {value} times the scene's {parameter}: {source}")]
+    #[error("at {parameter} = {value}: {source}")]
     Model {
         /// What was varied.
         parameter: Parameter,
-        /// The multiple.
+        /// The value.
         value: f64,
         /// Why not.
         source: ModelError,
@@ -86,7 +95,7 @@ fn names() -> String {
 impl Parameter {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
-        [Self::Spin, Self::Aspect, Self::MassRatio].into_iter()
+        [Self::Spin, Self::Aspect, Self::MassRatio, Self::Stiffness].into_iter()
     }
 
     /// What it is called on a command line.
@@ -95,6 +104,7 @@ impl Parameter {
             Self::Spin => "spin",
             Self::Aspect => "aspect",
             Self::MassRatio => "mass-ratio",
+            Self::Stiffness => "stiffness",
         }
     }
 
@@ -106,13 +116,15 @@ impl Parameter {
                 "the longest semi-axis of each body, with the joints on it, at constant density"
             }
             Self::MassRatio => "mass and inertia, own and added, of all bodies but the head",
+            Self::Stiffness => "N m, added to the stiffness of each joint",
         }
     }
 
-    /// The multiples that tell most of it, unless others are asked for.
+    /// The values that tell most of it, unless others are asked for.
     pub fn default_values(self) -> &'static [f64] {
         match self {
             Self::Aspect => &[0.5, 0.7, 1.0, 1.4, 2.0],
+            Self::Stiffness => &[0.1, 1.0, 10.0, 100.0, 1000.0],
             _ => &[0.25, 0.5, 1.0, 2.0, 4.0],
         }
     }
@@ -123,10 +135,11 @@ impl Parameter {
             Self::Spin => "spin",
             Self::Aspect => "aspect ratio",
             Self::MassRatio => "mass of tails to head",
+            Self::Stiffness => "stiffness of joints [N m]",
         }
     }
 
-    /// The scene with `value` times its own of this.
+    /// The scene with `value` times its own of this, or with so much more.
     ///
     /// # Errors
     /// [`ParameterError`].
@@ -134,11 +147,19 @@ impl Parameter {
         if !(value.is_finite() && value > 0.0) {
             return Err(ParameterError::Value { value });
         }
+        let of_tails = matches!(self, Self::MassRatio | Self::Stiffness);
+        if of_tails && scene.bodies.len() < 2 {
+            return Err(ParameterError::NoTail { parameter: self });
+        }
         let mut scene = scene.clone();
         match self {
             Self::Spin => spin(&mut scene, value),
             Self::Aspect => stretch(&mut scene, value)?,
-            Self::MassRatio => weigh(&mut scene, value)?,
+            Self::MassRatio => weigh(&mut scene, value),
+            Self::Stiffness => scene
+                .joints
+                .iter_mut()
+                .for_each(|joint| joint.stiffness += value),
         }
         Ok(scene)
     }
@@ -190,18 +211,13 @@ fn spin(scene: &mut Scene, value: f64) {
     }
 }
 
-fn weigh(scene: &mut Scene, value: f64) -> Result<(), ParameterError> {
-    let tails = scene.bodies.get_mut(1..).unwrap_or_default();
-    if tails.is_empty() {
-        return Err(ParameterError::NoTail);
-    }
+fn weigh(scene: &mut Scene, value: f64) {
     let scaled = |matrix: [[f64; 3]; 3]| matrix.map(|row| row.map(|x| value * x));
-    for body in tails {
+    for body in scene.bodies.iter_mut().skip(1) {
         body.total_mass = scaled(body.total_mass);
         body.total_inertia = scaled(body.total_inertia);
         body.net_mass *= value;
     }
-    Ok(())
 }
 
 fn stretch(scene: &mut Scene, value: f64) -> Result<(), ParameterError> {

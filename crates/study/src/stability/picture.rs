@@ -76,8 +76,9 @@ fn thresholds(until: f64) -> String {
     format!(
         "Each tile is a run of {until} s. Energy: off by {:.0} % of the largest kinetic energy, or on a line that moves by {:.0} % of it and \
          explains more than half of the variance. Momentum: off by {MOMENTUM:e} of that of the largest kinetic energy. Group: an orthogonality \
-         error of {GROUP:e}. Refused: a typed error. Silently wrong: all of this holds, and after a single step, or the time of a radian, from \
-         a state of its own an attitude is off by {WRONG} rad.",
+         error of {GROUP:e}. Refused: a typed error. Silently wrong: none of this, and an attitude \
+         is off by {WRONG} rad after a step, or as many as turn a body by half a radian, from a state of the \
+         run.",
         100.0 * ENERGY_BAND,
         100.0 * ENERGY_DRIFT,
     )

@@ -11,10 +11,12 @@ use crate::watch::Sample;
 
 /// Times at which a run is looked at, where it has so many steps.
 const SAMPLES: u64 = 4096;
+/// Steps between two looks at the clock.
+const ASK: u64 = 64;
 /// Windows in which it is compared with the reference.
 const WINDOWS: u64 = 32;
 
-/// What a method comes to in steps of `h`; `late` is asked at each look, and ends the run unjudged. None of a contender without a step.
+/// What a method comes to in steps of `h`; `late` is asked often, and ends the run unjudged. None of a contender without a step.
 pub(super) fn run(
     contender: Contender,
     problem: &Problem,
@@ -52,7 +54,7 @@ impl Run<'_> {
         let (look, compare) = (steps.div_ceil(SAMPLES), steps.div_ceil(WINDOWS));
         for step in 1..=steps {
             if self.window.is_none() && (step - 1).is_multiple_of(compare) {
-                let window = Window::open(self.problem, &self.state, self.h);
+                let window = Window::open(&self.problem.model, &self.state, self.h, compare);
                 self.window = window.map(|window| (step - 1 + window.steps, window));
             }
             if let Err(error) = self.integrator.step(&mut self.state, self.h) {
@@ -65,9 +67,9 @@ impl Run<'_> {
                     Some(sample) if !judge.add(&sample) => return End::OffBand,
                     Some(_) => {}
                 }
-                if step < steps && late() {
-                    return End::OutOfTime;
-                }
+            }
+            if step.is_multiple_of(ASK) && step < steps && late() {
+                return End::OutOfTime;
             }
         }
         End::Reached

@@ -112,7 +112,7 @@ fn refused(contender: Contender, problem: &Problem, cell: &Outcome, h: f64) -> W
     };
     branch.follow(h);
     let Branch { start, end, .. } = &branch;
-    let window = Window::of_step(&problem.model, start, h);
+    let window = Window::open(&problem.model, start, h, 1);
     let angle = || window?.angle(&problem.model, end);
     match branch.reached() == h && angle().is_some_and(|angle| angle <= WRONG) {
         true => Wall::Solver,
@@ -195,6 +195,34 @@ impl<'a> Branch<'a> {
         }
         for h in self.path.clone() {
             self.solve(h);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use articulated_fluid::{Scene, scene};
+
+    use super::*;
+
+    #[test]
+    fn continuation_finds_the_solution_of_a_step_that_has_one() {
+        let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
+        let problem = Problem {
+            model: scene.model().unwrap(),
+            start: scene.initial_state().unwrap(),
+            until: 1.0,
+        };
+        // As if a solver had refused it.
+        let refused_at = Some(problem.start.clone());
+        let cell = Outcome {
+            class: Class::Refused,
+            refused_at,
+            ..Outcome::NOT_RUN
+        };
+        for name in ["lgvi", "composition-2", "gauss-3"] {
+            let contender = name.parse().unwrap();
+            assert_eq!(refused(contender, &problem, &cell, 0.2), Wall::Solver);
         }
     }
 }

@@ -13,6 +13,10 @@ use crate::work_precision::apart;
 
 /// Of the reference's steps: it is to tell a radian.
 const TOLERANCE: f64 = 1e-9;
+/// A window ends where the reference has turned an attitude by this, rad: then an error of a radian is no small one of it.
+const TURNED: f64 = 0.5;
+/// A step of more radians has no reference.
+const MOST: f64 = 1e3;
 /// The method of another family that must agree with it where it contradicts.
 const CHECK: Contender = Contender::Structure(Method::Gauss8);
 /// Steps of the check in a radian.
@@ -26,41 +30,33 @@ pub(super) struct Window {
     end: State<Configuration>,
     /// How many of the method's steps lie between.
     pub(super) steps: u64,
-    radian: f64,
 }
 
 impl Window {
-    /// The time in which the fastest body turns by a radian, in whole steps of `h` and at least one; none where there is no reference.
-    pub(super) fn open(problem: &Problem, start: &State<Configuration>, h: f64) -> Option<Self> {
-        let radian = 1.0 / fastest_rate(&problem.model, start)?;
-        let steps = (radian.min(problem.until) / h).floor().max(1.0);
-        Self::of(&problem.model, start, (h, steps), radian)
-    }
-
-    /// A single step of `h`; none where there is no reference.
-    pub(super) fn of_step(
+    /// One step of `h` from `start`, or twice as many and so on, at most `most`, until the motion has turned a body by half a radian; none
+    /// where there is no reference.
+    pub(super) fn open(
         model: &ArticulatedBody,
         start: &State<Configuration>,
         h: f64,
+        most: u64,
     ) -> Option<Self> {
-        let radian = 1.0 / fastest_rate(model, start)?;
-        Self::of(model, start, (h, 1.0), radian)
-    }
-
-    fn of(
-        model: &ArticulatedBody,
-        start: &State<Configuration>,
-        (h, steps): (f64, f64),
-        radian: f64,
-    ) -> Option<Self> {
-        let until = start.t + steps * h;
+        if h * fastest_rate(model, start)? > MOST {
+            return None;
+        }
         let tolerance = Tolerance::uniform(TOLERANCE);
-        let end = on_group::integrate(model, start, until, tolerance).ok()?;
+        let to = |from: &State<Configuration>, steps: u64| {
+            on_group::integrate(model, from, start.t + steps as f64 * h, tolerance).ok()
+        };
+        let (mut steps, mut end) = (1, to(start, 1)?);
+        while 2 * steps <= most && apart(model, start, &end) < TURNED {
+            steps *= 2;
+            end = to(&end, steps)?;
+        }
         Some(Self {
             start: start.clone(),
             end,
-            steps: steps as u64,
-            radian,
+            steps,
         })
     }
 
@@ -76,15 +72,17 @@ impl Window {
 
     /// Whether an independent method goes where the reference goes.
     fn is_confirmed(&self, model: &ArticulatedBody) -> bool {
-        let until = self.end.t - self.start.t;
-        let mut start = self.start.clone();
-        start.t = 0.0;
+        let rate = |state| fastest_rate(model, state).unwrap_or(0.0);
+        let radians = (self.end.t - self.start.t) * rate(&self.start).max(rate(&self.end));
         let problem = Problem {
             model: model.clone(),
-            start,
-            until,
+            start: State {
+                t: 0.0,
+                ..self.start.clone()
+            },
+            until: self.end.t - self.start.t,
         };
-        let steps = (CHECK_STEPS * until / self.radian).ceil().max(1.0);
+        let steps = CHECK_STEPS * radians.ceil().max(1.0);
         let states = CHECK.sample(&problem, Setting::Steps(steps as u64), 1);
         let end = states
             .ok()

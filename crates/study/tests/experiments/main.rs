@@ -7,5 +7,6 @@ mod contenders;
 mod figure;
 mod methods;
 mod problems;
+mod stability;
 mod systems;
 mod work_precision;
