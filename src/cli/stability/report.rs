@@ -31,10 +31,8 @@ impl Report<'_> {
         let own = self.own();
         for method in 0..grid.methods.len() {
             if let Some(cause) = self.cause(method, own) {
-                text += &format!(
-                    "{} at {}: {cause}\n",
-                    grid.methods[method], grid.values[own]
-                );
+                let (name, parameter) = (grid.methods[method], grid.parameter);
+                text += &format!("{name}, {parameter} {}: {cause}\n", grid.values[own]);
             }
         }
         let files = self.files.iter().map(|file| file.display().to_string());
