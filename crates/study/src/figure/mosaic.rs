@@ -17,6 +17,8 @@ const MAP_TITLE: f64 = 32.0;
 const TICKS: f64 = 30.0;
 const GAP: f64 = 22.0;
 const TILE_HEIGHT: f64 = 26.0;
+/// Of a map: the label of its axis has room beside it.
+const LOWEST: f64 = 130.0;
 /// In a legend, and between its entries.
 const SWATCH: f64 = 26.0;
 const BETWEEN: f64 = 26.0;
@@ -180,7 +182,7 @@ fn maps(mosaic: &Mosaic, top: f64) -> Result<Vec<Area>, FigureError> {
     let indent = indent + BESIDE;
     let room = WIDTH - EDGE - left - (columns - 1) as f64 * GAP;
     let width = room / columns as f64 - indent;
-    let height = TILE_HEIGHT * mosaic.y.len() as f64;
+    let height = LOWEST.max(TILE_HEIGHT * mosaic.y.len() as f64);
     let place = |k: usize| Area {
         left: left + (k % columns) as f64 * (indent + width + GAP) + indent,
         top: top + (k / columns) as f64 * (MAP_TITLE + height + TICKS) + MAP_TITLE,

@@ -154,7 +154,7 @@ impl Outcome {
 pub(super) enum End {
     Reached,
     /// A step was not taken from the state.
-    Stopped(StepError, State<Configuration>),
+    Stopped(StepError, Box<State<Configuration>>),
     /// A number was not finite at this time.
     NotFinite(f64),
     /// The energy is out of its band.
@@ -248,7 +248,7 @@ impl Judge {
             End::Stopped(error @ StepError::NotFinite { .. }, _) => {
                 (Class::NonFinite, Some(error.into()), None)
             }
-            End::Stopped(error, state) => (Class::Refused, Some(error.into()), Some(state)),
+            End::Stopped(error, state) => (Class::Refused, Some(error.into()), Some(*state)),
             End::NotFinite(t) => (Class::NonFinite, Some(Failure::NotFinite { t }), None),
             End::OutOfTime => (Class::NotRun, None, None),
         };
@@ -325,7 +325,7 @@ mod tests {
     fn the_group_comes_before_the_momenta_and_the_energy_before_both() {
         let group = |_: f64, sample: &mut Sample| sample.orthogonality = 2.0 * GROUP;
         let momentum = |part: f64, sample: &mut Sample| {
-            sample.angular = sample.angular + Vec3([0.0, 0.0, 1e-3 * part]);
+            sample.angular += Vec3([0.0, 0.0, 1e-3 * part]);
         };
         assert_eq!(judged(group).class, Class::GroupLeft);
         let lost = judged(momentum);

@@ -34,7 +34,7 @@ pub(super) fn run(
         return Some(Outcome::not_finite(problem.start.t));
     };
     let mut judge = Judge::new(&problem.model, start);
-    let end = run.to_end(&mut judge, late);
+    let end = run.follow(&mut judge, late);
     Some(judge.judge(end))
 }
 
@@ -48,7 +48,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn to_end(&mut self, judge: &mut Judge, late: &dyn Fn() -> bool) -> End {
+    fn follow(&mut self, judge: &mut Judge, late: &dyn Fn() -> bool) -> End {
         // A remainder of rounding is no step.
         let steps = (self.problem.until / self.h - 1e-9).ceil().max(1.0) as u64;
         let (look, compare) = (steps.div_ceil(SAMPLES), steps.div_ceil(WINDOWS));
@@ -58,7 +58,7 @@ impl Run<'_> {
                 self.window = window.map(|window| (step - 1 + window.steps, window));
             }
             if let Err(error) = self.integrator.step(&mut self.state, self.h) {
-                return End::Stopped(error, self.state.clone());
+                return End::Stopped(error, Box::new(self.state.clone()));
             }
             self.close_window(step, judge);
             if step.is_multiple_of(look) || step == steps {
