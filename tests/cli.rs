@@ -10,6 +10,8 @@ use tempfile::TempDir;
 
 #[path = "cli/chart.rs"]
 mod chart;
+#[path = "cli/stability.rs"]
+mod stability;
 
 const SCENE: &str = include_str!("../scenes/fish-chain.toml");
 const BODIES: [&str; 3] = ["head", "tail-1", "tail-2"];

@@ -1,8 +1,9 @@
 //! Values of options.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use study::contender::{Contender, UnknownContender};
+use study::contender::{Contender, Control, UnknownContender};
 use study::methods::{Method, UnknownMethod};
+use study::stability::{Parameter, UnknownParameter};
 use thiserror::Error;
 
 /// Why a value was refused.
@@ -14,6 +15,8 @@ pub enum ValueError {
     Accuracy,
     #[error("expected a whole number >= 1")]
     Count,
+    #[error("expected a finite number > 0")]
+    Multiple,
 }
 
 /// A duration in seconds: finite and positive.
@@ -26,6 +29,11 @@ pub fn seconds(text: &str) -> Result<f64, ValueError> {
 /// An error to stay below: finite and positive.
 pub fn accuracy(text: &str) -> Result<f64, ValueError> {
     seconds(text).map_err(|_| ValueError::Accuracy)
+}
+
+/// So many times: finite and positive.
+pub fn multiple(text: &str) -> Result<f64, ValueError> {
+    seconds(text).map_err(|_| ValueError::Multiple)
 }
 
 /// How many: at least one.
@@ -46,10 +54,27 @@ pub fn method() -> impl TypedValueParser<Value = Method> {
 
 /// A method or a baseline by its name; help and errors tell them all.
 pub fn contender() -> impl TypedValueParser<Value = Contender> {
+    contenders(Contender::all())
+}
+
+/// The same of those that take steps of one size.
+pub fn stepper() -> impl TypedValueParser<Value = Contender> {
+    contenders(Contender::all().filter(|contender| contender.control() == Control::Step))
+}
+
+fn contenders(all: impl Iterator<Item = Contender>) -> impl TypedValueParser<Value = Contender> {
     let value = |contender: Contender| {
         let help = format!("order {}: {}", contender.order(), contender.description());
         PossibleValue::new(contender.name()).help(help)
     };
-    PossibleValuesParser::new(Contender::all().map(value))
+    PossibleValuesParser::new(all.map(value))
         .try_map(|name| name.parse::<Contender>() as Result<_, UnknownContender>)
+}
+
+/// What of a scene is varied, by its name; help and errors tell all there is.
+pub fn parameter() -> impl TypedValueParser<Value = Parameter> {
+    let value =
+        |parameter: Parameter| PossibleValue::new(parameter.name()).help(parameter.description());
+    PossibleValuesParser::new(Parameter::all().map(value))
+        .try_map(|name| name.parse::<Parameter>() as Result<_, UnknownParameter>)
 }

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use articulated_fluid::{ModelError, SceneError};
 use dvi::{PilotError, StepError};
 use study::figure::FigureError;
+use study::stability::ParameterError;
 use study::work_precision::UnknownReference;
 use thiserror::Error;
 
@@ -54,6 +55,8 @@ pub enum CliError {
     Stopped { signal: usize },
     #[error(transparent)]
     Reference(#[from] UnknownReference),
+    #[error("--parameter: {0}")]
+    Parameter(#[from] ParameterError),
     #[error(transparent)]
     Figure(#[from] FigureError),
     #[error("signals cannot be handled: {0}")]
@@ -70,6 +73,7 @@ impl CliError {
             | Self::Model { .. }
             | Self::TooManySteps(_)
             | Self::TooManySamples(_)
+            | Self::Parameter(_)
             | Self::OutputIsScene(_)
             | Self::OutputIsDash => USAGE,
             Self::Interrupted { signal, .. } | Self::Stopped { signal } => {

@@ -9,6 +9,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
+use super::error::CliError;
+
 /// Remembers that the user wants the command to end.
 pub struct Interrupt {
     signal: Arc<AtomicUsize>,
@@ -28,6 +30,14 @@ impl Interrupt {
             Arc::new(AtomicBool::new(false)),
         )?;
         Ok(Self { signal })
+    }
+
+    /// An error where a signal came.
+    pub fn heed(&self) -> Result<(), CliError> {
+        match self.signal() {
+            Some(signal) => Err(CliError::Stopped { signal }),
+            None => Ok(()),
+        }
     }
 
     /// The number of the signal that came, if one did.

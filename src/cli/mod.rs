@@ -4,6 +4,7 @@ mod args;
 mod chart;
 mod clock;
 mod error;
+mod files;
 mod inspect;
 mod interrupt;
 mod methods;
@@ -13,6 +14,7 @@ mod progress;
 mod run;
 mod scene;
 mod schedule;
+mod stability;
 mod summary;
 mod table;
 
@@ -29,6 +31,7 @@ Examples:
   lgvi run boat.toml --step 0.01        a scene of one's own
   lgvi run --method gauss-4             another integrator, at its own default step
   lgvi chart boat.toml                  which method is the cheapest for which error
+  lgvi stability boat.toml              in which steps each method fails, and how
   lgvi inspect boat.toml                what it is modelled with, and why
   lgvi methods                          the integrators: orders, steps, costs
   lgvi run --help                       options, CSV columns, keys of a scene";
@@ -48,6 +51,7 @@ struct Cli {
 enum Command {
     Run(run::Args),
     Chart(chart::Args),
+    Stability(stability::Args),
     Inspect(inspect::Args),
     Methods(methods::Args),
 }
@@ -57,6 +61,7 @@ impl Command {
         match self {
             Self::Run(args) => run::execute(args),
             Self::Chart(args) => chart::execute(args),
+            Self::Stability(args) => stability::execute(args),
             Self::Inspect(args) => inspect::execute(args),
             Self::Methods(args) => methods::execute(args),
         }

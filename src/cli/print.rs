@@ -48,16 +48,18 @@ pub fn json(value: &impl Serialize) -> Result<String, CliError> {
 }
 
 /// Rows with their columns aligned to the left, two spaces apart.
-pub fn columns<const N: usize>(rows: &[[String; N]]) -> String {
+pub fn columns<R: AsRef<[String]>>(rows: &[R]) -> String {
+    let count = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
     let width = |column: usize| {
-        let widths = rows.iter().map(|row| row[column].chars().count());
-        widths.max().unwrap_or(0)
+        let texts = rows.iter().filter_map(|row| row.as_ref().get(column));
+        texts.map(|text| text.chars().count()).max().unwrap_or(0)
     };
-    let widths: [usize; N] = core::array::from_fn(width);
-    let line = |row: &[String; N]| {
+    let widths: Vec<usize> = (0..count).map(width).collect();
+    let line = |row: &R| {
         let padded = row
+            .as_ref()
             .iter()
-            .zip(widths)
+            .zip(&widths)
             .map(|(text, width)| format!("{text:width$}  "));
         padded.collect::<String>().trim_end().to_owned() + "\n"
     };

@@ -1,9 +1,11 @@
-//! Grids of line charts, written as SVG and PNG.
+//! Grids of line charts and of maps, written as SVG and PNG.
 //!
 //! A [`Figure`] is data: panels of lines, a title, a number of columns.
 //! [`Figure::save`] lays it out (panels of a column aligned, one legend on top
 //! for all panels or a name at each line's end), thins long series to what a pixel column can show, and
 //! writes `<stem>.svg` and `<stem>.png`.
+//!
+//! A [`Mosaic`] is a grid of maps of coloured tiles, drawn in the same way.
 //!
 //! Colours are the palette of Okabe and Ito, told apart with any colour vision.
 //! The PNG is set in the bundled subset of DejaVu Sans, so that it looks the
@@ -48,11 +50,13 @@ mod font;
 mod layout;
 mod legend;
 mod mark;
+mod mosaic;
 mod surface;
 mod thin;
 mod write;
 
 pub use error::FigureError;
+pub use mosaic::{Kind, Mosaic, Tiles};
 
 use std::path::{Path, PathBuf};
 
@@ -245,10 +249,7 @@ impl Figure {
         self.check()?;
         font::register()?;
         let layout = layout::Layout::new(self)?;
-        Ok(Rendered {
-            svg: surface::svg(self, &layout)?,
-            png: surface::png(self, &layout)?,
-        })
+        surface::render(&(self, &layout))
     }
 
     /// Draws the figure into `<stem>.svg` and `<stem>.png`.

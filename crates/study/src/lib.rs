@@ -14,6 +14,7 @@
 //!   raw matrices;
 //! * [`contender`] — methods and baselines under one name each, run in one way;
 //! * [`work_precision`] — what each of them costs for which error;
+//! * [`stability`] — in which steps each of them fails, how, and at which wall;
 //! * [`watch`] — how far a run strays from what the motion keeps;
 //! * [`survey`] — order, energy, momentum maps and symplecticity of any method
 //!   on a test problem, and methods that are wrong on purpose;
@@ -30,6 +31,7 @@ pub mod methods;
 pub mod on_group;
 pub mod problems;
 pub mod raw;
+pub mod stability;
 pub mod survey;
 pub mod watch;
 pub mod work_precision;

@@ -52,6 +52,13 @@ pub fn attitudes(g: &Configuration) -> impl Iterator<Item = &SO3> {
     core::iter::once(&g.0).chain(g.2.iter())
 }
 
+/// The largest angular velocity of a body, rad/s; `None` where the state does not fit the model.
+pub(crate) fn fastest_rate(model: &ArticulatedBody, state: &State<Configuration>) -> Option<f64> {
+    let xi = model.velocity(state).ok()?;
+    let rates = core::iter::once(&xi.0).chain(xi.2.iter());
+    Some(rates.map(|omega| omega.vec3().norm()).fold(0.0, f64::max))
+}
+
 /// What the symmetries of a model leave of the momenta to be kept.
 #[derive(Clone, Copy, Debug)]
 struct Symmetry {
@@ -158,6 +165,17 @@ impl Watch {
         relative(self.trend.slope(), self.kinetic)
     }
 
+    /// The part, 0 to 1, of the energy error's variance that the line of [this slope](Self::energy_slope) explains: near zero where the
+    /// error oscillates, near one where it drifts.
+    pub fn energy_trend(&self) -> f64 {
+        self.trend.explained()
+    }
+
+    /// The largest kinetic energy, J.
+    pub fn kinetic(&self) -> f64 {
+        self.kinetic
+    }
+
     /// Whether gravity acts.
     pub fn has_weight(&self) -> bool {
         self.symmetry.vertical.is_some()
@@ -199,16 +217,24 @@ struct Trend {
     mean_y: f64,
     tt: f64,
     ty: f64,
+    yy: f64,
 }
 
 impl Trend {
     fn add(&mut self, t: f64, y: f64) {
         self.count += 1.0;
-        let dt = t - self.mean_t;
+        let (dt, dy) = (t - self.mean_t, y - self.mean_y);
         self.mean_t += dt / self.count;
-        self.mean_y += (y - self.mean_y) / self.count;
+        self.mean_y += dy / self.count;
         self.tt += dt * (t - self.mean_t);
         self.ty += dt * (y - self.mean_y);
+        self.yy += dy * (y - self.mean_y);
+    }
+
+    /// The square of the correlation of t and y.
+    fn explained(&self) -> f64 {
+        let square = self.ty / self.tt * (self.ty / self.yy);
+        if square.is_finite() { square } else { 0.0 }
     }
 
     fn slope(&self) -> f64 {
@@ -227,12 +253,23 @@ mod tests {
     #[test]
     fn a_line_has_its_slope() {
         let mut trend = Trend::default();
-        assert_eq!(trend.slope(), 0.0);
+        assert_eq!((trend.slope(), trend.explained()), (0.0, 0.0));
         for k in 0..1000 {
             let t = 100.0 + 0.1 * f64::from(k);
             trend.add(t, 7.0 - 0.25 * t);
         }
         assert!((trend.slope() + 0.25).abs() < 1e-12);
+        assert!((trend.explained() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_line_explains_little_of_an_oscillation() {
+        let mut trend = Trend::default();
+        for k in 0..1000 {
+            let t = 0.1 * f64::from(k);
+            trend.add(t, t.sin() + 1e-3 * t);
+        }
+        assert!(trend.explained() < 0.01);
     }
 
     #[test]

@@ -32,9 +32,12 @@ pub use cheapest::{Choice, cheapest};
 pub use errors::Errors;
 pub use horizon::Horizon;
 pub use picture::picture;
+pub(crate) use reference::apart;
 pub use reference::{Reference, UnknownReference};
+pub(crate) use sweep::three_digits;
 pub use sweep::{Curve, Measured, Point, Sweep};
 pub use table::csv;
+pub(crate) use table::{optional, quoted};
 pub use timing::Timing;
 
 /// Intervals between the times at which a run is looked at.

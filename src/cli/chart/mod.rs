@@ -1,6 +1,5 @@
 //! `lgvi chart`: work against precision.
 
-mod files;
 mod json;
 mod report;
 
@@ -12,11 +11,11 @@ use study::work_precision::{Curve, Reference, Sweep, Timing, csv, picture};
 
 use super::args;
 use super::error::CliError;
+use super::files::Files;
 use super::interrupt::Interrupt;
 use super::print::{self, decimal, one_line};
 use super::progress;
 use super::scene::{Loaded, load};
-use files::Files;
 use report::Report;
 
 /// Chart what each method costs for which error, on a scene of your own.
@@ -104,10 +103,7 @@ fn sweep(
     reference: &Reference,
     interrupt: &Interrupt,
 ) -> Result<Vec<Curve>, CliError> {
-    let heed = || match interrupt.signal() {
-        Some(signal) => Err(CliError::Stopped { signal }),
-        None => Ok(()),
-    };
+    let heed = || interrupt.heed();
     let mut curves: Vec<Curve> = vec![];
     let bar: ProgressBar = progress::bar(
         methods.len() as u64,

@@ -9,13 +9,13 @@ use super::ends::ends;
 use super::layout::{Cell, EDGE, LABEL, Layout, NOTE, PANEL_TITLE, TICK, TICK_GAP, TITLE};
 use super::legend::{Entry, SAMPLE};
 use super::mark::{Shape, shape};
-use super::surface::{Surface, Text};
+use super::surface::{Drawing, Surface, Text};
 use super::thin::{Pixel, thin};
 use super::{Colour, Figure, FigureError, Labels, Level, Line, Marker, Panel, Style, font};
 
-const PAPER: RGBColor = RGBColor(255, 255, 255);
-const INK: RGBColor = RGBColor(26, 26, 26);
-const FRAME: RGBColor = RGBColor(90, 90, 90);
+pub(super) const PAPER: RGBColor = RGBColor(255, 255, 255);
+pub(super) const INK: RGBColor = RGBColor(26, 26, 26);
+pub(super) const FRAME: RGBColor = RGBColor(90, 90, 90);
 const LEADER: RGBColor = RGBColor(170, 170, 170);
 const RULE: RGBColor = RGBColor(229, 229, 229);
 
@@ -28,12 +28,18 @@ const MINOR_LENGTH: f64 = 3.0;
 
 type Done = Result<(), FigureError>;
 
+impl Drawing for (&Figure, &Layout) {
+    fn size(&self) -> Pixel {
+        (self.1.width, self.1.height)
+    }
+
+    fn draw<B: DrawingBackend>(&self, on: &mut Surface<B>) -> Done {
+        draw(self.0, self.1, on)
+    }
+}
+
 /// Draws everything.
-pub(super) fn draw<B: DrawingBackend>(
-    figure: &Figure,
-    layout: &Layout,
-    on: &mut Surface<B>,
-) -> Done {
+fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, on: &mut Surface<B>) -> Done {
     on.fill((0.0, 0.0), (layout.width, layout.height), PAPER)?;
     let room = layout.width - 2.0 * EDGE;
     let at = (layout.width / 2.0, layout.title_y);
@@ -69,7 +75,7 @@ pub(super) fn draw<B: DrawingBackend>(
     Ok(())
 }
 
-fn colour(colour: Colour) -> RGBColor {
+pub(super) fn colour(colour: Colour) -> RGBColor {
     let (r, g, b) = colour.rgb();
     RGBColor(r, g, b)
 }
@@ -235,7 +241,12 @@ fn beside(factor: Option<&str>) -> Result<f64, FigureError> {
     }
 }
 
-fn small<B: DrawingBackend>(on: &mut Surface<B>, text: &str, at: Pixel, align: HPos) -> Done {
+pub(super) fn small<B: DrawingBackend>(
+    on: &mut Surface<B>,
+    text: &str,
+    at: Pixel,
+    align: HPos,
+) -> Done {
     on.text(&Text {
         text,
         at,
@@ -246,7 +257,7 @@ fn small<B: DrawingBackend>(on: &mut Surface<B>, text: &str, at: Pixel, align: H
     })
 }
 
-fn title<B: DrawingBackend>(
+pub(super) fn title<B: DrawingBackend>(
     on: &mut Surface<B>,
     text: &str,
     at: Pixel,

@@ -8,9 +8,8 @@ use plotters::backend::{BitMapBackend, DrawingBackend, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoFont, RGBColor, ShapeStyle, TextStyle};
 
-use super::layout::Layout;
 use super::thin::Pixel;
-use super::{Figure, FigureError, draw, font, write};
+use super::{FigureError, Rendered, font, write};
 
 /// Grid cells per pixel.
 const SVG_SCALE: u32 = 4;
@@ -42,22 +41,39 @@ pub(super) struct Text<'a> {
     pub(super) colour: RGBColor,
 }
 
-/// The figure as an SVG document.
-pub(super) fn svg(figure: &Figure, layout: &Layout) -> Result<String, FigureError> {
-    let (width, height) = size(layout, 1);
+/// What can be drawn on any backend.
+pub(super) trait Drawing {
+    /// Width and height in pixels.
+    fn size(&self) -> Pixel;
+
+    /// Draws everything.
+    fn draw<B: DrawingBackend>(&self, on: &mut Surface<B>) -> Result<(), FigureError>;
+}
+
+/// Both pictures of a drawing.
+pub(super) fn render(drawing: &impl Drawing) -> Result<Rendered, FigureError> {
+    Ok(Rendered {
+        svg: svg(drawing)?,
+        png: png(drawing)?,
+    })
+}
+
+/// An SVG document.
+fn svg(drawing: &impl Drawing) -> Result<String, FigureError> {
+    let (width, height) = size(drawing, 1);
+    let (wide, high) = size(drawing, SVG_SCALE);
     let mut document = String::new();
     let mut surface = Surface {
-        backend: SVGBackend::with_string(&mut document, size(layout, SVG_SCALE)),
+        backend: SVGBackend::with_string(&mut document, (wide, high)),
         scale: f64::from(SVG_SCALE),
         size_per_em: 1.24,
         drop: 0.09,
         joins: true,
         swell: 0.0,
     };
-    draw::draw(figure, layout, &mut surface)?;
+    drawing.draw(&mut surface)?;
     surface.backend.present().map_err(FigureError::draw)?;
     drop(surface);
-    let (wide, high) = size(layout, SVG_SCALE);
     Ok(document.replacen(
         &format!("width=\"{wide}\" height=\"{high}\""),
         &format!("width=\"{width}\" height=\"{height}\""),
@@ -65,9 +81,9 @@ pub(super) fn svg(figure: &Figure, layout: &Layout) -> Result<String, FigureErro
     ))
 }
 
-/// The figure as an encoded PNG.
-pub(super) fn png(figure: &Figure, layout: &Layout) -> Result<Vec<u8>, FigureError> {
-    let (wide, high) = size(layout, PNG_SCALE);
+/// An encoded PNG.
+fn png(drawing: &impl Drawing) -> Result<Vec<u8>, FigureError> {
+    let (wide, high) = size(drawing, PNG_SCALE);
     let mut pixels = vec![255; wide as usize * high as usize * 3];
     let mut surface = Surface {
         backend: BitMapBackend::with_buffer(&mut pixels, (wide, high)),
@@ -77,18 +93,16 @@ pub(super) fn png(figure: &Figure, layout: &Layout) -> Result<Vec<u8>, FigureErr
         joins: false,
         swell: 1.0,
     };
-    draw::draw(figure, layout, &mut surface)?;
+    drawing.draw(&mut surface)?;
     surface.backend.present().map_err(FigureError::draw)?;
     drop(surface);
     let averaged = average(&pixels, wide as usize, PNG_SCALE as usize);
-    write::encode_png(&averaged, size(layout, 1))
+    write::encode_png(&averaged, size(drawing, 1))
 }
 
-fn size(layout: &Layout, scale: u32) -> (u32, u32) {
-    (
-        layout.width.ceil() as u32 * scale,
-        layout.height.ceil() as u32 * scale,
-    )
+fn size(drawing: &impl Drawing, scale: u32) -> (u32, u32) {
+    let (width, height) = drawing.size();
+    (width.ceil() as u32 * scale, height.ceil() as u32 * scale)
 }
 
 /// Replaces each square of `n` by `n` pixels by its mean colour.

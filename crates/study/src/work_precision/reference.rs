@@ -10,6 +10,7 @@ use crate::baseline::Tolerance;
 use crate::contender::{Contender, Failure, Problem, Setting};
 use crate::methods::Method;
 use crate::on_group::{self, ReferenceError};
+use crate::watch::fastest_rate;
 
 /// Of the reference's steps.
 pub(super) const TOLERANCE: f64 = 1e-13;
@@ -122,17 +123,12 @@ fn confirm(
 
 /// The inverse of the fastest body's largest rate.
 fn radian(model: &ArticulatedBody, states: &[State<Configuration>], until: f64) -> f64 {
-    let rate = |state| {
-        let xi = model.velocity(state).ok()?;
-        let rates = core::iter::once(&xi.0).chain(xi.2.iter());
-        Some(rates.map(|omega| omega.vec3().norm()).fold(0.0, f64::max))
-    };
-    let fastest = states.iter().filter_map(rate).fold(0.0, f64::max);
-    (1.0 / fastest).min(until)
+    let rates = states.iter().filter_map(|state| fastest_rate(model, state));
+    (1.0 / rates.fold(0.0, f64::max)).min(until)
 }
 
 /// The largest angle, rad, between bodies of two states; infinite where one is not a number.
-pub(super) fn apart(
+pub(crate) fn apart(
     model: &ArticulatedBody,
     a: &State<Configuration>,
     b: &State<Configuration>,

@@ -183,7 +183,8 @@ impl<'a> Sweep<'a> {
     }
 }
 
-fn three_digits(x: f64) -> f64 {
+/// For people.
+pub(crate) fn three_digits(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
 }
 

@@ -33,7 +33,6 @@ pub fn csv(curves: &[Curve], until: f64) -> String {
 }
 
 fn numbers(Measured { cost, runs, errors }: &Measured) -> String {
-    let optional = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:e}"));
     format!(
         "{},{:e},{runs},{},{},{:e},{:e},{},{},{:e},{:e},{:e},",
         cost.steps,
@@ -50,6 +49,12 @@ fn numbers(Measured { cost, runs, errors }: &Measured) -> String {
     )
 }
 
-fn quoted(text: &str) -> String {
+/// A number, or nothing.
+pub(crate) fn optional(x: Option<f64>) -> String {
+    x.map_or_else(String::new, |x| format!("{x:e}"))
+}
+
+/// A text that may have commas.
+pub(crate) fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
 }

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use study::figure::{Colour, Figure, FigureError, Line, Panel, Saved, Scale, Style};
+use study::figure::{
+    Colour, Figure, FigureError, Kind, Line, Mosaic, Panel, Saved, Scale, Style, Tiles,
+};
 
 /// A folder of its own, removed at the end.
 struct Folder(PathBuf);
@@ -253,4 +255,47 @@ fn what_cannot_be_drawn_or_written_is_named() {
     let error = save(figure(1, one()), &stem);
     assert!(matches!(error, FigureError::Write { .. }), "{error}");
     assert_eq!(folder.names(), ["chart.svg"]);
+}
+
+fn mosaic(maps: usize) -> Mosaic {
+    let kind = |label: &str, colour, sign: &str| Kind {
+        label: label.into(),
+        colour,
+        sign: sign.into(),
+    };
+    let tiles = |k: usize| Tiles {
+        title: format!("map {k}"),
+        kinds: vec![0, 1, 1, 0, 1, 0, 7, 0],
+    };
+    Mosaic {
+        title: "maps".into(),
+        columns: 2,
+        x_label: "h [s]".into(),
+        y_label: "k".into(),
+        x: ["0.1", "0.2", "0.4"].map(String::from).into(),
+        y: ["1", "2"].map(String::from).into(),
+        kinds: vec![
+            kind("good", Some(Colour::Blue), "g"),
+            kind("none", None, "–"),
+        ],
+        maps: (0..maps).map(tiles).collect(),
+        notes: vec!["a note".into()],
+    }
+}
+
+#[test]
+fn a_mosaic_has_every_map_and_refuses_none() {
+    let drawn = mosaic(3).render().unwrap();
+    for text in ["maps", "map 2", "good", "0.4", "h [s]", "a note"] {
+        assert!(drawn.svg.contains(text), "{text}");
+    }
+    assert!(drawn.png.len() > 1000);
+    assert!(matches!(mosaic(0).render(), Err(FigureError::NoPanel)));
+    let none = Mosaic {
+        columns: 0,
+        ..mosaic(1)
+    };
+    assert!(matches!(none.render(), Err(FigureError::NoColumn)));
+    let tall = mosaic(1000).render();
+    assert!(matches!(tall, Err(FigureError::TooLarge { .. })));
 }

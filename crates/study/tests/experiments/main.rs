@@ -8,5 +8,6 @@ mod figure;
 mod hard;
 mod methods;
 mod problems;
+mod stability;
 mod systems;
 mod work_precision;

@@ -1,12 +1,12 @@
-//! The three files of a chart.
+//! A picture twice and its numbers: three files.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use study::figure::Rendered;
 
-use crate::cli::error::CliError;
-use crate::cli::output::{Output, OutputError, same};
+use super::error::CliError;
+use super::output::{Output, OutputError, same};
 
 /// Files in the making, in the order of [`ENDINGS`].
 pub struct Files(Vec<(PathBuf, Output)>);

@@ -1,0 +1,280 @@
+//! What of a scene is varied.
+//!
+//! A place for another one: a variant, its names, and what it changes of a [`Scene`].
+
+use core::fmt;
+use core::str::FromStr;
+
+use articulated_fluid::scene::{SceneBody, StartVelocity};
+use articulated_fluid::{Ellipsoid, EllipsoidError, ModelError, Scene};
+use thiserror::Error;
+
+use crate::contender::Problem;
+
+/// Masses and inertias this close to those of an ellipsoid, relative to the largest of them, are its own.
+const SAME: f64 = 1e-9;
+
+/// What of a scene is varied: all but the stiffness in multiples of the scene's own, where 1 is the scene as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Parameter {
+    /// All initial velocities.
+    ///
+    /// Where no force acts, this is a change of the unit of time: a spin of $s$ in steps of $h$ is the scene itself in steps of $s h$.
+    Spin,
+    /// The longest semi-axis of each body and, with it, the joints on the body: at constant density.
+    Aspect,
+    /// Mass and inertia, own and added, of all bodies but the head.
+    MassRatio,
+    /// N m, added to the stiffness $k$ of each joint, of the potential $k (1 - \cos\theta)$ of the angle between its bodies.
+    Stiffness,
+}
+
+/// No parameter has this name.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("no parameter is called `{name}`; expected one of {}", names())]
+pub struct UnknownParameter {
+    /// What was asked for.
+    pub name: String,
+}
+
+/// Why a scene cannot be varied so.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ParameterError {
+    /// The value is no positive number.
+    #[error("the value is {value}; expected a finite number > 0")]
+    Value {
+        /// The value.
+        value: f64,
+    },
+    /// A body's masses do not follow from semi-axes.
+    #[error(
+        "body {body:?} is not given by its semi-axes, which alone tell the inertia of another aspect ratio; give it semi_axes and mass, as \
+         scenes/fish-chain-from-semi-axes.toml does, or vary another parameter"
+    )]
+    NotAnEllipsoid {
+        /// Its name.
+        body: String,
+    },
+    /// There is nothing but a head.
+    #[error(
+        "the scene has one body alone, and {parameter} is of tails and joints; vary another parameter"
+    )]
+    NoTail {
+        /// What was to be varied.
+        parameter: Parameter,
+    },
+    /// The stretched axes are no ellipsoid's.
+    #[error("body {body:?} stretched {value} times: {source}")]
+    Ellipsoid {
+        /// Its name.
+        body: String,
+        /// The value.
+        value: f64,
+        /// Why not.
+        source: EllipsoidError,
+    },
+    /// What comes of it is no model.
+    #[error("at {parameter} = {value}: {source}")]
+    Model {
+        /// What was varied.
+        parameter: Parameter,
+        /// The value.
+        value: f64,
+        /// Why not.
+        source: ModelError,
+    },
+}
+
+fn names() -> String {
+    let names: Vec<_> = Parameter::all().map(Parameter::name).collect();
+    names.join(", ")
+}
+
+impl Parameter {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> + Clone {
+        [Self::Spin, Self::Aspect, Self::MassRatio, Self::Stiffness].into_iter()
+    }
+
+    /// What it is called on a command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Spin => "spin",
+            Self::Aspect => "aspect",
+            Self::MassRatio => "mass-ratio",
+            Self::Stiffness => "stiffness",
+        }
+    }
+
+    /// What it varies, in a line.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Spin => "all initial velocities",
+            Self::Aspect => {
+                "the longest semi-axis of each body, with the joints on it, at constant density"
+            }
+            Self::MassRatio => "mass and inertia, own and added, of all bodies but the head",
+            Self::Stiffness => "N m, added to the stiffness of each joint",
+        }
+    }
+
+    /// The values that tell most of it, unless others are asked for.
+    pub fn default_values(self) -> &'static [f64] {
+        match self {
+            Self::Aspect => &[0.5, 0.7, 1.0, 1.4, 2.0],
+            Self::Stiffness => &[0.1, 1.0, 10.0, 100.0, 1000.0],
+            _ => &[0.25, 0.5, 1.0, 2.0, 4.0],
+        }
+    }
+
+    /// Its name on an axis.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Spin => "spin",
+            Self::Aspect => "aspect ratio",
+            Self::MassRatio => "mass of tails to head",
+            Self::Stiffness => "stiffness of joints [N m]",
+        }
+    }
+
+    /// The scene with `value` times its own of this, or with so much more.
+    ///
+    /// # Errors
+    /// [`ParameterError`].
+    pub fn vary(self, scene: &Scene, value: f64) -> Result<Scene, ParameterError> {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(ParameterError::Value { value });
+        }
+        let of_tails = matches!(self, Self::MassRatio | Self::Stiffness);
+        if of_tails && scene.bodies.len() < 2 {
+            return Err(ParameterError::NoTail { parameter: self });
+        }
+        let mut scene = scene.clone();
+        match self {
+            Self::Spin => spin(&mut scene, value),
+            Self::Aspect => stretch(&mut scene, value)?,
+            Self::MassRatio => weigh(&mut scene, value),
+            Self::Stiffness => scene
+                .joints
+                .iter_mut()
+                .for_each(|joint| joint.stiffness += value),
+        }
+        Ok(scene)
+    }
+
+    /// The model of the varied scene, where it starts and how long it runs.
+    ///
+    /// # Errors
+    /// [`ParameterError`].
+    pub fn problem(self, scene: &Scene, value: f64, until: f64) -> Result<Problem, ParameterError> {
+        let scene = self.vary(scene, value)?;
+        let refused = |source| ParameterError::Model {
+            parameter: self,
+            value,
+            source,
+        };
+        Ok(Problem {
+            model: scene.model().map_err(refused)?,
+            start: scene.initial_state().map_err(refused)?,
+            until,
+        })
+    }
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Parameter {
+    type Err = UnknownParameter;
+
+    fn from_str(name: &str) -> Result<Self, UnknownParameter> {
+        let unknown = || UnknownParameter {
+            name: name.to_owned(),
+        };
+        Self::all()
+            .find(|parameter| parameter.name() == name)
+            .ok_or_else(unknown)
+    }
+}
+
+fn spin(scene: &mut Scene, value: f64) {
+    for body in &mut scene.bodies {
+        body.angular_velocity = body.angular_velocity.map(|rate| value * rate);
+    }
+    if let StartVelocity::Given(velocity) = &mut scene.velocity {
+        *velocity = velocity.map(|v| value * v);
+    }
+}
+
+fn weigh(scene: &mut Scene, value: f64) {
+    let scaled = |matrix: [[f64; 3]; 3]| matrix.map(|row| row.map(|x| value * x));
+    for body in scene.bodies.iter_mut().skip(1) {
+        body.total_mass = scaled(body.total_mass);
+        body.total_inertia = scaled(body.total_inertia);
+        body.net_mass *= value;
+    }
+}
+
+fn stretch(scene: &mut Scene, value: f64) -> Result<(), ParameterError> {
+    let density = scene.density;
+    let mut longest = vec![];
+    for body in &mut scene.bodies {
+        longest.push(stretch_body(body, density, value)?);
+    }
+    for joint in &mut scene.joints {
+        joint.at_parent[longest[joint.parent]] *= value;
+        joint.at_child[longest[joint.child]] *= value;
+    }
+    Ok(())
+}
+
+/// Stretches a body along its longest axis, whose index is returned.
+fn stretch_body(body: &mut SceneBody, density: f64, value: f64) -> Result<usize, ParameterError> {
+    let (mut axes, mass) = ellipsoid(body, density).ok_or(ParameterError::NotAnEllipsoid {
+        body: body.name.clone(),
+    })?;
+    let longest = (0..3).max_by(|i, j| axes[*i].total_cmp(&axes[*j]));
+    let longest = longest.unwrap_or(0);
+    axes[longest] *= value;
+    let stretched = Ellipsoid::new(axes).map_err(|source| ParameterError::Ellipsoid {
+        body: body.name.clone(),
+        value,
+        source,
+    })?;
+    [body.total_mass, body.total_inertia] = totals(&stretched, density, value * mass);
+    body.semi_axes = Some(axes);
+    body.net_mass *= value;
+    Ok(longest)
+}
+
+/// The semi-axes and the own mass of a body that is a uniform ellipsoid in a fluid of this density.
+fn ellipsoid(body: &SceneBody, density: f64) -> Option<([f64; 3], f64)> {
+    let axes = body.semi_axes?;
+    let shape = Ellipsoid::new(axes).ok()?;
+    let mass = body.total_mass[0][0] - shape.added_mass(density)[0];
+    let given = [body.total_mass, body.total_inertia];
+    let same = totals(&shape, density, mass)
+        .iter()
+        .zip(&given)
+        .all(|(a, b)| is_same(a, b));
+    (same && mass > 0.0).then_some((axes, mass))
+}
+
+/// Mass and inertia, own and added, of a uniform ellipsoid of this own mass.
+fn totals(shape: &Ellipsoid, density: f64, mass: f64) -> [[[f64; 3]; 3]; 2] {
+    let masses = shape.added_mass(density).map(|added| mass + added);
+    let (own, added) = (shape.dry_inertia(mass), shape.added_inertia(density));
+    let inertias = [0, 1, 2].map(|i| own[i] + added[i]);
+    [masses, inertias].map(|[x, y, z]| [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]])
+}
+
+fn is_same(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> bool {
+    let entries = || a.as_flattened().iter().zip(b.as_flattened());
+    let largest = entries().fold(0.0, |m: f64, (a, b)| m.max(a.abs()).max(b.abs()));
+    entries().all(|(a, b)| (a - b).abs() <= SAME * largest)
+}

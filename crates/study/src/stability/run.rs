@@ -1,0 +1,85 @@
+//! One method in steps of one size, from the start until it has gone wrong.
+
+use articulated_fluid::Configuration;
+use dvi::{Integrator, State};
+
+use super::outcome::{End, Judge, Outcome};
+use super::window::Window;
+use crate::contender::{Contender, Problem};
+use crate::methods::BoxedIntegrator;
+use crate::watch::Sample;
+
+/// Times at which a run is looked at, where it has so many steps.
+const SAMPLES: u64 = 4096;
+/// Steps between two looks at the clock.
+const ASK: u64 = 64;
+/// Windows in which it is compared with the reference.
+const WINDOWS: u64 = 32;
+
+/// What a method comes to in steps of `h`; `late` is asked often, and ends the run unjudged. None of a contender without a step.
+pub(super) fn run(
+    contender: Contender,
+    problem: &Problem,
+    h: f64,
+    late: &dyn Fn() -> bool,
+) -> Option<Outcome> {
+    let mut run = Run {
+        integrator: contender.integrator(problem)?,
+        problem,
+        h,
+        state: problem.start.clone(),
+        window: None,
+    };
+    let Some(start) = Sample::take(&problem.model, &problem.start) else {
+        return Some(Outcome::not_finite(problem.start.t));
+    };
+    let mut judge = Judge::new(&problem.model, start);
+    let end = run.follow(&mut judge, late);
+    Some(judge.judge(end))
+}
+
+struct Run<'a> {
+    integrator: BoxedIntegrator<Configuration>,
+    problem: &'a Problem,
+    h: f64,
+    state: State<Configuration>,
+    /// The one that is open, and the step with which it closes.
+    window: Option<(u64, Window)>,
+}
+
+impl Run<'_> {
+    fn follow(&mut self, judge: &mut Judge, late: &dyn Fn() -> bool) -> End {
+        // A remainder of rounding is no step.
+        let steps = (self.problem.until / self.h - 1e-9).ceil().max(1.0) as u64;
+        let (look, compare) = (steps.div_ceil(SAMPLES), steps.div_ceil(WINDOWS));
+        for step in 1..=steps {
+            if self.window.is_none() && (step - 1).is_multiple_of(compare) {
+                let window = Window::open(&self.problem.model, &self.state, self.h, compare);
+                self.window = window.map(|window| (step - 1 + window.steps, window));
+            }
+            if let Err(error) = self.integrator.step(&mut self.state, self.h) {
+                return End::Stopped(error, Box::new(self.state.clone()));
+            }
+            self.close_window(step, judge);
+            if step.is_multiple_of(look) || step == steps {
+                match Sample::take(&self.problem.model, &self.state) {
+                    None => return End::NotFinite(self.state.t),
+                    Some(sample) if !judge.add(&sample) => return End::OffBand,
+                    Some(_) => {}
+                }
+            }
+            if step.is_multiple_of(ASK) && step < steps && late() {
+                return End::OutOfTime;
+            }
+        }
+        End::Reached
+    }
+
+    fn close_window(&mut self, step: u64, judge: &mut Judge) {
+        if let Some((_, window)) = self.window.take_if(|(last, _)| *last == step)
+            && let Some(angle) = window.angle(&self.problem.model, &self.state)
+        {
+            judge.compare(angle);
+        }
+    }
+}

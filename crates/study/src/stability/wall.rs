@@ -1,0 +1,228 @@
+//! How far a method is good, and what ends there.
+
+use articulated_fluid::Configuration;
+use dvi::{Integrator, State};
+
+use super::outcome::{Class, Outcome, WRONG};
+use super::window::Window;
+use crate::contender::{Contender, Kind, Problem};
+use crate::methods::BoxedIntegrator;
+use crate::work_precision::apart;
+
+/// Continuation begins at this part of the refused step.
+const FIRST: f64 = 1.0 / 64.0;
+/// By this factor a step is longer than the one before; by its root after each failure, until it is below the second.
+const GROWTH: f64 = 1.25;
+const FINEST: f64 = 1.002;
+/// A solution that turns an attitude by more, rad, than the one before is another branch's.
+const JUMP: f64 = 0.5;
+
+/// The largest step in which a method is good, and what ends there.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Limit {
+    /// The largest step, s, such that it and all shorter ones of the grid are good; none where the shortest is not.
+    pub step: Option<f64>,
+    /// What the next longer step runs into.
+    pub wall: Wall,
+    /// The index of that step; none where all are good.
+    pub next: Option<usize>,
+}
+
+/// What a method runs into when its step grows.
+///
+/// The solver's wall and the dynamics' are different ones: beyond the first a better solver goes on, beyond the second the method's own
+/// discrete dynamics is no longer near the motion, however well it is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Wall {
+    /// Nothing: all steps of the grid are good.
+    None,
+    /// The solver: it refused a step whose equation has a solution, found from shorter steps by continuation.
+    Solver,
+    /// The equation of the step: from the state where it was refused, the branch of solutions that starts at the state itself was followed
+    /// to this step, s, and no further.
+    Equation {
+        /// The longest step that was solved, s.
+        ends: f64,
+    },
+    /// The dynamics of the method: the energy left its band, drifted, or a number became infinite (nonlinear resonance, instability).
+    Dynamics(Class),
+    /// What the method does not keep at all: a momentum or the group; a shorter step only loses it more slowly.
+    Structure(Class),
+    /// Another motion, which keeps all that is kept.
+    Wrong,
+    /// The budget ended before this was known.
+    Unknown,
+}
+
+impl Wall {
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Solver => "solver",
+            Self::Equation { .. } => "equation",
+            Self::Dynamics(_) => "dynamics",
+            Self::Structure(_) => "structure",
+            Self::Wrong => "wrong",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+impl Limit {
+    /// The limit of a method, from its outcomes in these steps, from short to long; when it is late, a refusal is not looked into.
+    pub(super) fn new(
+        contender: Contender,
+        problem: &Problem,
+        steps: &[f64],
+        cells: &[Outcome],
+        late: bool,
+    ) -> Self {
+        let good = cells.iter().take_while(|cell| cell.class == Class::Good);
+        let good = good.count();
+        let wall = |cell: &Outcome| match cell.class {
+            Class::Good => Wall::None,
+            Class::Refused if late => Wall::Unknown,
+            Class::Refused => refused(contender, problem, cell, steps[good]),
+            class @ (Class::EnergyBand | Class::EnergyDrift | Class::NonFinite) => {
+                Wall::Dynamics(class)
+            }
+            class @ (Class::MomentumLost | Class::GroupLeft) => Wall::Structure(class),
+            Class::SilentlyWrong => Wall::Wrong,
+            Class::NotRun => Wall::Unknown,
+        };
+        Self {
+            step: good.checked_sub(1).map(|last| steps[last]),
+            wall: cells.get(good).map_or(Wall::None, wall),
+            next: (good < cells.len()).then_some(good),
+        }
+    }
+}
+
+/// Whether the refused step has a solution where it should be: on the branch of the shorter steps from the same state, and near the motion.
+fn refused(contender: Contender, problem: &Problem, cell: &Outcome, h: f64) -> Wall {
+    let branch = cell
+        .refused_at
+        .as_ref()
+        .and_then(|state| Branch::new(contender, problem, state, FIRST * h));
+    let Some(mut branch) = branch else {
+        return Wall::Equation { ends: 0.0 };
+    };
+    branch.follow(h);
+    let Branch { start, end, .. } = &branch;
+    let window = Window::open(&problem.model, start, h, 1);
+    let angle = || window?.angle(&problem.model, end);
+    match branch.reached() == h && angle().is_some_and(|angle| angle <= WRONG) {
+        true => Wall::Solver,
+        false => Wall::Equation {
+            ends: branch.reached(),
+        },
+    }
+}
+
+/// The solutions of steps of all sizes from one state, that begin with the state itself.
+struct Branch<'a> {
+    contender: Contender,
+    problem: &'a Problem,
+    start: &'a State<Configuration>,
+    /// It has solved the last step of the path.
+    integrator: BoxedIntegrator<Configuration>,
+    /// The steps solved, each from the solution of the one before.
+    path: Vec<f64>,
+    /// Where the last of them leads.
+    end: State<Configuration>,
+}
+
+impl<'a> Branch<'a> {
+    /// None where the first step is not solved.
+    fn new(
+        contender: Contender,
+        problem: &'a Problem,
+        start: &'a State<Configuration>,
+        first: f64,
+    ) -> Option<Self> {
+        let mut branch = Self {
+            contender,
+            problem,
+            start,
+            integrator: contender.integrator(problem)?,
+            path: vec![first],
+            end: start.clone(),
+        };
+        branch.end = branch.solve(first)?;
+        Some(branch)
+    }
+
+    fn reached(&self) -> f64 {
+        self.path.last().copied().unwrap_or(0.0)
+    }
+
+    /// Goes on as far as `h`, or as there are solutions.
+    fn follow(&mut self, h: f64) {
+        let mut factor = GROWTH;
+        while self.reached() < h && factor > FINEST {
+            let next = (factor * self.reached()).min(h);
+            match self.solve(next) {
+                Some(end) if apart(&self.problem.model, &end, &self.end) < JUMP => {
+                    self.path.push(next);
+                    self.end = end;
+                }
+                _ => {
+                    factor = factor.sqrt();
+                    self.replay();
+                }
+            }
+        }
+    }
+
+    /// The step of size `h`, from the solution of the step before, and leaves its own for the next.
+    fn solve(&mut self, h: f64) -> Option<State<Configuration>> {
+        let mut end = self.start.clone();
+        self.integrator.step(&mut end, h).ok()?;
+        if self.contender.kind() == Kind::Gauss {
+            // Its guess continues the step before in time: so it is led back to where the next one starts.
+            let _ = self.integrator.step(&mut end.clone(), -h);
+        }
+        Some(end)
+    }
+
+    /// A refused step has made the integrator forget.
+    fn replay(&mut self) {
+        if let Some(integrator) = self.contender.integrator(self.problem) {
+            self.integrator = integrator;
+        }
+        for h in self.path.clone() {
+            self.solve(h);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use articulated_fluid::{Scene, scene};
+
+    use super::*;
+
+    #[test]
+    fn continuation_finds_the_solution_of_a_step_that_has_one() {
+        let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
+        let problem = Problem {
+            model: scene.model().unwrap(),
+            start: scene.initial_state().unwrap(),
+            until: 1.0,
+        };
+        // As if a solver had refused it.
+        let refused_at = Some(problem.start.clone());
+        let cell = Outcome {
+            class: Class::Refused,
+            refused_at,
+            ..Outcome::NOT_RUN
+        };
+        for name in ["lgvi", "composition-2", "gauss-3"] {
+            let contender = name.parse().unwrap();
+            assert_eq!(refused(contender, &problem, &cell, 0.2), Wall::Solver);
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! `lgvi stability`: where methods fail.
+
+mod json;
+mod report;
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use study::contender::Contender;
+use study::stability::{Grid, Map, Pace, Parameter, csv, picture};
+
+use super::args;
+use super::error::CliError;
+use super::files::Files;
+use super::interrupt::Interrupt;
+use super::print::{self, decimal, one_line};
+use super::progress;
+use super::scene::{Loaded, load};
+use report::Report;
+
+/// Map in which steps each method fails, and how, on a scene of your own.
+///
+/// Runs each method in steps of every size, over one parameter of the scene, for a long time, on all processors. Writes the
+/// map (SVG and PNG) and all numbers (CSV), and prints the largest step in which each method is good and what ends there: the solver of
+/// its step, or its dynamics.
+#[derive(clap::Args)]
+#[command(after_long_help = AFTER_LONG_HELP)]
+pub struct Args {
+    /// The scene, a TOML file [default: three bodies, from Lee, Leok & McClamroch (2009)]
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+    /// What of the scene is varied
+    #[arg(long, value_name = "NAME", default_value = "mass-ratio", value_parser = args::parameter())]
+    parameter: Parameter,
+    /// Its values, separated by commas: multiples of the scene's own, or N m [default: five of them]
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', value_parser = args::multiple, allow_hyphen_values = true)]
+    values: Vec<f64>,
+    /// The sizes of the steps, in seconds, separated by commas
+    #[arg(long, value_name = "SECONDS", default_value = STEPS, value_delimiter = ',', value_parser = args::seconds, allow_hyphen_values = true)]
+    steps: Vec<f64>,
+    /// The methods to map, separated by commas; none that chooses its steps
+    #[arg(long, value_name = "NAMES", default_value = METHODS, value_delimiter = ',', value_parser = args::stepper())]
+    methods: Vec<Contender>,
+    /// Simulated time, in seconds
+    #[arg(long, value_name = "SECONDS", default_value = "1000", value_parser = args::seconds, allow_hyphen_values = true)]
+    until: f64,
+    /// Time for all runs, in seconds: what is not done by then is marked as not run
+    #[arg(long, value_name = "SECONDS", default_value = "240", value_parser = args::seconds, allow_hyphen_values = true)]
+    budget: f64,
+    /// Write STEM.svg, STEM.png and STEM.csv: whole, or not at all
+    #[arg(long, value_name = "STEM", default_value = "stability")]
+    out: PathBuf,
+    /// Print all numbers as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Five to a decade.
+const STEPS: &str = "0.004,0.0063,0.01,0.016,0.025,0.04,0.063,0.1,0.16,0.25,0.4,0.63,1";
+/// Those whose shortest steps have time in the default budget.
+const METHODS: &str =
+    "lgvi,composition-2,gauss-2,gauss-4,gauss-6,gauss-8,rk4,rkmk4,rkmk4-plain,cf4";
+
+const AFTER_LONG_HELP: &str = "\
+Examples:
+  lgvi stability                                   the built-in scene for 1000 s: minutes
+  lgvi stability boat.toml --parameter spin        your scene, started faster and slower
+  lgvi stability --values 1 --methods lgvi,rk4 --steps 0.05,0.1,0.15,0.2
+  lgvi stability --json | jq '.methods[] | {name, limits}'
+
+A run is judged by the first of these that holds:
+  non-finite      a number was not finite; ends the run
+  refused         a step was refused with an error; ends the run
+  energy-band     the energy was off by 10 % of the largest kinetic energy; ends the run
+  energy-drift    the line through the energy's error moved by 1 % of it, and explains half of the error's variance
+  group-left      ||I - R^T R||_F above 1e-6
+  momentum-lost   a momentum off by 1e-6 of the one that the largest kinetic energy would have
+  silently-wrong  none of these, and an attitude off by a radian from two references: 32 times over the run these start from a state
+                  of the method and follow it for one step, or for as many as turn a body by half a radian
+  good            none of these
+
+What ends the good steps:
+  solver     a step was refused, and shorter steps from the same state, made longer bit by bit, lead to a solution
+  equation   they do not: the branch of solutions ends before
+  dynamics   the energy left its band or drifted, or a number became infinite: the method's own motion, solved as it is
+  structure  the method loses momenta or the group at any step, at shorter ones more slowly
+  wrong      silently wrong
+  none       nothing: all steps were good
+
+Exit codes:
+  0    done, even if runs failed or had no time
+  1    a write failed; no file is left, old ones are as they were
+  2    an argument or the scene is wrong
+  130  interrupted (143: terminated); as 1";
+
+/// Runs the cells, writes the files and prints the table.
+pub fn execute(args: &Args) -> Result<(), CliError> {
+    let begin = Instant::now();
+    let loaded = load(args.scene.as_deref())?;
+    loaded.overlaps.iter().for_each(print::warning);
+    let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
+    let files = Files::create(&args.out, args.scene.as_deref())?;
+    let map = run(args, &loaded, &interrupt)?;
+    let title = title(&loaded, args);
+    let written = files.finish(&picture(&map, &title).render()?, &csv(&map))?;
+    let report = Report {
+        loaded: &loaded,
+        map: &map,
+        title,
+        seconds: begin.elapsed().as_secs_f64(),
+        files: &written,
+    };
+    print::stdout(&match args.json {
+        true => print::json(&json::Object::from(&report))?,
+        false => report.text(),
+    })
+}
+
+fn title(loaded: &Loaded, args: &Args) -> String {
+    let title = loaded.scene.title.as_ref().unwrap_or(&loaded.file);
+    format!("{}: {} s", one_line(title), decimal(args.until))
+}
+
+fn run(args: &Args, loaded: &Loaded, interrupt: &Interrupt) -> Result<Map, CliError> {
+    let values = match args.values.as_slice() {
+        [] => args.parameter.default_values(),
+        given => given,
+    };
+    let (methods, steps) = (&args.methods, &args.steps);
+    let grid = Grid::new(args.parameter, values, methods, steps, args.until);
+    let bar = progress::bar(grid.len() as u64, "{bar:40} {pos} of {len} runs, {elapsed}");
+    let pace = Pace {
+        // A time beyond what can be counted is no bound.
+        budget: Duration::try_from_secs_f64(args.budget).unwrap_or(Duration::MAX),
+        stop: &|| interrupt.signal().is_some(),
+        done: &|| bar.inc(1),
+    };
+    let map = Map::new(&loaded.scene, grid, &pace)?;
+    interrupt.heed()?;
+    Ok(map)
+}
