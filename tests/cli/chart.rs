@@ -12,7 +12,7 @@ fn two_methods_give_three_files_and_a_table() {
         "--until",
         "1",
         "--methods",
-        "gauss-4,dp853,gauss-4",
+        "composition-2,dp853,composition-2",
     ];
     let output = lgvi(directory.path(), &args);
     assert_eq!(text(&output.stderr), "");
@@ -23,7 +23,7 @@ fn two_methods_give_three_files_and_a_table() {
         "of dp853's",
         "keeping the structure",
         "confirms to",
-        "failed: gauss-4",
+        "failed: composition-2",
         "no solution for h",
         "written: chart.svg, chart.png, chart.csv",
     ] {
@@ -34,7 +34,7 @@ fn two_methods_give_three_files_and_a_table() {
         ["chart.csv", "chart.png", "chart.svg"]
     );
     let drawn = fs::read_to_string(directory.path().join("chart.svg")).unwrap();
-    assert!(drawn.contains("gauss-4") && drawn.contains("unknown below"));
+    assert!(drawn.contains("composition-2") && drawn.contains("unknown below"));
 }
 
 #[test]

@@ -83,8 +83,13 @@ fn is_finite(scene: &Scene) -> bool {
 /// The scenes of the collection and those of the documentation and of these tests.
 fn scene_text() -> impl Strategy<Value = String> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let entries = std::fs::read_dir(scenes).expect("the scenes");
-    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let folders = [scenes.join("hard"), scenes];
+    let entries = folders
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(folder).expect("the scenes"));
+    let paths = entries
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.is_file());
     let texts = paths.map(|path| std::fs::read_to_string(path).expect("a scene"));
     let own = [GOOD, EXAMPLE].map(str::to_owned);
     select(texts.chain(own).collect::<Vec<_>>())

@@ -31,8 +31,6 @@ const SHORTEST: f64 = 1e-3;
 const LONG_STEPS: u32 = 16;
 /// How far from its guess a root of Newton's may lie, as a share of that: from the steps before, and from the state's own velocity.
 const NEAR: [f64; 2] = [0.25, 0.5];
-/// The shortest part of a step that its solution is followed by.
-const SHORTEST_PART: f64 = 1.0 / 32.0;
 /// Halvings of a refused step in the search for one that would do.
 const HALVINGS: i32 = 20;
 
@@ -101,11 +99,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             });
         }
         self.long_steps = 0;
-        let share = self.shorter::<R>(method, start, tolerance);
-        if let Some(again) = self.follow::<R>(method, start, (share, tolerance)) {
-            return Ok(again);
-        }
-        let h = share * start.1;
+        let h = self.shorter::<R>(method, start, tolerance);
         self.predictor.forget();
         self.update.forget();
         self.drift.fill(0.0);
@@ -225,21 +219,11 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     ) -> Result<Ended, Failure> {
         let near = NEAR[usize::from(!self.predictor.is_known())];
         self.guess::<R>(method, (state, h))?;
-        Ok(self.newton_from_here::<R>(method, (state, h), (near, tolerance)))
-    }
-
-    /// The same from the rates that the sweep holds.
-    fn newton_from_here<R: Retraction>(
-        &mut self,
-        (system, tableau): Method<C>,
-        start: Start<C>,
-        goal: (f64, f64),
-    ) -> Ended {
         let newton = self.newton.take();
-        let mut newton = newton.unwrap_or_else(|| SweepNewton::new(system, tableau, &start.0.g));
-        let ended = self.newton_with::<R>(&mut newton, system, start, goal);
+        let mut newton = newton.unwrap_or_else(|| SweepNewton::new(method.0, method.1, &state.g));
+        let ended = self.newton_with::<R>(&mut newton, method.0, (state, h), (near, tolerance));
         self.newton = Some(newton);
-        ended
+        Ok(ended)
     }
 
     fn newton_with<R: Retraction>(
@@ -299,58 +283,21 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         Ended::Slow(report)
     }
 
-    /// The share of the longest of the halved steps from this state that is solved.
+    /// The longest of the halved steps from this state that is solved.
     fn shorter<R: Retraction>(
         &mut self,
         method: Method<C>,
         (state, h): Start<C>,
         tolerance: f64,
     ) -> f64 {
-        let half = |k| 0.5_f64.powi(k);
-        let solved = (1..=HALVINGS).map(half).find(|share| {
+        let half = |k| h * 0.5_f64.powi(k);
+        let solved = (1..=HALVINGS).map(half).find(|h| {
             self.predictor.forget();
-            let ended = self.attempt::<R>(method, (state, share * h), tolerance);
+            let ended = self.attempt::<R>(method, (state, *h), tolerance);
             matches!(ended, Ok(Ended::Solved(_)))
         });
         self.long_steps = 0;
         solved.unwrap_or(half(HALVINGS))
-    }
-
-    /// Follows the solution for the share `reached` of a step, which was solved last, to the whole: the stages' rates change little from
-    /// one part to the next.
-    fn follow<R: Retraction>(
-        &mut self,
-        method: Method<C>,
-        (state, h): Start<C>,
-        (mut reached, tolerance): (f64, f64),
-    ) -> Option<StepReport> {
-        let mut rates = vec![0.0; self.sweep.dim() * (2 * method.1.nodes.len() + 1)];
-        self.sweep.write(&mut rates);
-        let (mut part, mut iterations) = (0.5 * reached, 0);
-        while part >= SHORTEST_PART {
-            let next = (reached + part).min(1.0);
-            self.sweep.start_at(&state.g);
-            self.sweep.read(&rates);
-            let goal = (NEAR[0], tolerance);
-            match self.newton_from_here::<R>(method, (state, next * h), goal) {
-                Ended::Slow(report) => {
-                    iterations += report.iterations;
-                    part *= 0.5;
-                }
-                Ended::Solved(report) => {
-                    iterations += report.iterations;
-                    if next == 1.0 {
-                        return Some(StepReport {
-                            iterations,
-                            ..report
-                        });
-                    }
-                    self.sweep.write(&mut rates);
-                    (reached, part) = (next, 2.0 * part);
-                }
-            }
-        }
-        None
     }
 }
 

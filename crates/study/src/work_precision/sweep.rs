@@ -107,6 +107,8 @@ pub struct Sweep<'a> {
     stalled: u32,
     /// How many settings in a row have taken too long.
     slow: u32,
+    /// Of the last setting that did not fail.
+    last: Duration,
 }
 
 impl<'a> Sweep<'a> {
@@ -133,6 +135,7 @@ impl<'a> Sweep<'a> {
             best: f64::INFINITY,
             stalled: 0,
             slow: 0,
+            last: Duration::ZERO,
         }
     }
 
@@ -147,9 +150,13 @@ impl<'a> Sweep<'a> {
     fn is_last(&mut self, outcome: &Result<Measured, Failure>, elapsed: Duration) -> bool {
         let limit = self.timing.longest;
         let is_slow = match outcome {
-            Ok(measured) => measured.cost.time > limit,
+            // Where shorter steps are solved faster, those that follow may be fast.
+            Ok(measured) => measured.cost.time > limit && measured.cost.time >= self.last,
             Err(_) => elapsed > LATE * limit,
         };
+        self.last = outcome
+            .as_ref()
+            .map_or(self.last, |measured| measured.cost.time);
         self.slow = if is_slow { self.slow + 1 } else { 0 };
         if self.slow >= 2 || self.tried >= MOST {
             return true;

@@ -31,15 +31,15 @@ const fn hard(name: &'static str, radian: f64, outcomes: [&'static str; 3]) -> H
 /// In each row lgvi and its adjoint, compositions of order 2 to 8, Gauss of 1 to 8 stages.
 #[rustfmt::skip]
 const TABLE: [Hard; 12] = [
-    hard("needle",          0.2,   ["GGGGGGGGGGGGGG", "-GGGGGGG------", "--------------"]),
-    hard("disc",            0.4,   ["GGGGGGGGGGGGGG", "------GGGGGGGG", "--------------"]),
-    hard("light-tail",      0.033, ["GGGGGGGGGGGGGG", "GGGGGGGGGGGGGG", "--------------"]),
+    hard("needle",          0.2,   ["GGGGGGGGGGGGGG", "-GGGGG--------", "--------------"]),
+    hard("disc",            0.4,   ["GGGGGGGGGGGGGG", "--------------", "--------------"]),
+    hard("light-tail",      0.033, ["GGGGGGGGGGGGGG", "GGGGGGGG-GGGGG", "--------------"]),
     hard("fast-spin",       0.0026,["GGGGGGGGGGGGGG", "GGGGGGGGGGGGGG", "--------------"]),
     hard("joint-at-centre", 0.2,   ["GGGGGGGGGGGGGG", "GGGGGGGGGGGGGG", "--------------"]),
-    hard("folded-chain",    0.33,  ["GGGGGGGGGGGGGG", "---GGGGGGGGGGG", "--------------"]),
-    hard("angle-pi",        0.3,   ["GGGGGGGGGGGGGG", "GGGGGGGGGGGGGG", "--------------"]),
+    hard("folded-chain",    0.33,  ["GGGGGGGGGGGGGG", "---GGG------GG", "--------------"]),
+    hard("angle-pi",        0.3,   ["GGGGGGGGGGGGGG", "GGGGGG--GGGGGG", "--------------"]),
     hard("at-rest",         1.0,   ["GGGGGGGGGGGGGG", "GGGGGGGGGGGGGG", "GGGGGGGGGGGGGG"]),
-    hard("from-rest",       0.33,  ["GGGGGGGGGGGGGG", "-G-GGGG-GGGGGG", "--------------"]),
+    hard("from-rest",       0.33,  ["GGGGGGGGGGGGGG", "-G-GGG--------", "--------------"]),
     hard("one-body",        0.33,  ["GGGGGGGGGGGGGG", "GGGGGGGGGGGGGG", "--------------"]),
     hard("fast-and-far",    0.005, ["GGGGGGGGGGGGGG", "GGGGGGGGGGGGGG", "------GGGGGGGG"]),
     hard("dense-fluid",     0.1,   ["GGGGGGGGGGGGGG", "---GGGGGGGGGGG", "--------------"]),
