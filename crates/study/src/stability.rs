@@ -17,7 +17,7 @@
 //! # The wall
 //! What ends where a method's steps become too long is its [`Wall`]. Of a refused step it is asked whether the equation of the step has a
 //! solution: from the state where the step was refused, shorter steps are solved and made longer bit by bit, each from the solution of
-//! the one before. Where that arrives, the wall is the solver's; where the branch ends before, at a fold, no solver goes on along it.
+//! the one before. Where that arrives, the wall is the solver's; where it ends before, as at a fold, it is the equation's.
 //!
 //! ```
 //! use std::time::Duration;
