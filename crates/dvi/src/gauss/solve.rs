@@ -22,7 +22,7 @@ const EXHAUSTED: [f64; 2] = [0.1 * f64::EPSILON, 4.0 * f64::EPSILON];
 /// Contraction of Newton's method that keeps its matrix, from step to step too.
 const KEEPS_MATRIX: f64 = 0.3;
 /// Sweeps from one look at $\pi_0$ to the next.
-const LOOKS_AT_END: u32 = 2;
+const LOOKS_AT_END: u32 = 4;
 /// A change of $\pi_0$ this much larger than that of the rates, both relative, is no echo of it.
 const KNOWN_BETTER: f64 = 0.01;
 /// The shortest part of a correction that is tried.

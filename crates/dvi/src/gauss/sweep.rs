@@ -541,10 +541,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
             pi_dot,
             poison,
         } = &self.change;
+        // What is not a number is in `poison`; one instruction a number, where `larger` takes three.
         let largest = |x: &S| {
-            S::items(core::slice::from_ref(x))
-                .iter()
-                .fold(0.0, |a, b| larger(a, *b))
+            let items = S::items(core::slice::from_ref(x)).iter();
+            items.fold(0.0, |a, b| if *b > a { *b } else { a })
         };
         let spoilt = S::items(core::slice::from_ref(poison)).iter().sum::<f64>();
         let c = relative(largest(&c_dot.change), largest(&c_dot.size));
