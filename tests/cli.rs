@@ -594,7 +594,7 @@ fn bad_scenes_are_refused() {
 fn a_step_that_fails_leaves_the_old_table() {
     let words = [
         "step 0 at t = 0 s",
-        "no solution for h = 5 s",
+        "no solution found for h = 5 s",
         "try a smaller step",
     ];
     fails(&["run", "--step", "5", "--out", "a.csv"], 1, &words);

@@ -2,9 +2,7 @@
 
 use std::io;
 use std::sync::Arc;
-#[cfg(unix)]
-use std::sync::atomic::AtomicBool;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
@@ -21,6 +19,10 @@ impl Interrupt {
     pub fn listen() -> io::Result<Self> {
         let signal = Arc::new(AtomicUsize::new(0));
         for number in [SIGINT, SIGTERM] {
+            // The second one ends the command at once, whatever it is at.
+            let came = Arc::new(AtomicBool::new(false));
+            flag::register_conditional_shutdown(number, 128 + number, came.clone())?;
+            flag::register(number, came)?;
             flag::register_usize(number, signal.clone(), number.unsigned_abs() as usize)?;
         }
         // A file over the size limit is then a failed write.

@@ -41,6 +41,11 @@ pub fn decimal(value: f64) -> String {
     }
 }
 
+/// The same with three digits.
+pub fn three_digits(value: f64) -> String {
+    decimal(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
 /// A value as JSON on a line.
 pub fn json(value: &impl Serialize) -> Result<String, CliError> {
     let text = serde_json::to_string(value).map_err(|error| CliError::Stdout(error.into()))?;

@@ -148,7 +148,7 @@ Exit codes:
   0    done
   1    the run or a write failed; no CSV file is left, an old one is as it was
   2    an argument or the scene is wrong
-  130  interrupted (143: terminated); as 1"
+  130  interrupted (143: terminated); as 1, the second time at once"
     )
 }
 

@@ -24,7 +24,7 @@ fn two_methods_give_three_files_and_a_table() {
         "keeping the structure",
         "confirms to",
         "failed: composition-2",
-        "no solution for h",
+        "no solution found for h",
         "written: chart.svg, chart.png, chart.csv",
     ] {
         assert!(told.contains(words), "{words}: {told}");

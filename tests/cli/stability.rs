@@ -67,7 +67,7 @@ fn all_numbers_are_in_the_json() {
         runs[1]["failure"]
             .as_str()
             .unwrap()
-            .contains("no solution for h")
+            .contains("no solution found for h")
     );
     assert_eq!(object["methods"].as_array().unwrap().len(), 2);
     assert_eq!(files(directory.path()), ["m.1.csv", "m.1.png", "m.1.svg"]);

@@ -8,7 +8,8 @@ use thiserror::Error;
 pub enum StepError {
     /// The implicit equation was not solved.
     #[error(
-        "step {step} at t = {t} s: no solution for h = {h} s after {iterations} iterations (residual {residual:.1e} of the momentum); {hint}"
+        "step {step} at t = {} s: no solution found for h = {} s after {iterations} iterations (residual {residual:.1e} of the momentum); {hint}",
+        nine_digits(*t), nine_digits(*h)
     )]
     NotConverged {
         /// Steps that this integrator has taken before.
@@ -27,7 +28,8 @@ pub enum StepError {
     },
     /// The step size is zero or not finite.
     #[error(
-        "step {step} at t = {t} s: the step size is {h} s; expected a finite number other than zero"
+        "step {step} at t = {} s: the step size is {h} s; expected a finite number other than zero",
+        nine_digits(*t)
     )]
     InvalidStep {
         /// Steps that this integrator has taken before.
@@ -39,7 +41,8 @@ pub enum StepError {
     },
     /// The configuration is not one of the model's.
     #[error(
-        "step {step} at t = {t} s: the configuration does not fit the model (another number of bodies?); make it from the model"
+        "step {step} at t = {} s: the configuration does not fit the model (another number of bodies?); make it from the model",
+        nine_digits(*t)
     )]
     Misfit {
         /// Steps that this integrator has taken before.
@@ -49,7 +52,8 @@ pub enum StepError {
     },
     /// The momentum has another number of factors than the configuration.
     #[error(
-        "step {step} at t = {t} s: the momentum does not have the configuration's shape ({expected} coordinates, found {found}); make it of `g.zero_dual()`"
+        "step {step} at t = {} s: the momentum does not have the configuration's shape ({expected} coordinates, found {found}); make it of `g.zero_dual()`",
+        nine_digits(*t)
     )]
     Shape {
         /// Steps that this integrator has taken before.
@@ -63,7 +67,8 @@ pub enum StepError {
     },
     /// The state, the model or the state after the step has a number that is not finite.
     #[error(
-        "step {step} at t = {t} s: a number is not finite: in the state, in the velocity or the derivatives at it, or in the state after a step of {h} s; check the initial state, the model's parameters (an inertia that is singular gives no velocity) and the step"
+        "step {step} at t = {} s: a number is not finite: in the state, in the velocity or the derivatives at it, or in the state after a step of {} s; check the initial state, the model's parameters (an inertia that is singular gives no velocity) and the step",
+        nine_digits(*t), nine_digits(*h)
     )]
     NotFinite {
         /// Steps that this integrator has taken before.
@@ -149,7 +154,26 @@ impl core::fmt::Display for Hint {
     }
 }
 
-/// Rounded to two significant digits, and printed without an exponent.
-fn two_digits(x: f64) -> f64 {
-    format!("{x:.1e}").parse().unwrap_or(x)
+/// Rounded to two significant digits.
+fn two_digits(x: f64) -> Printed {
+    Printed(format!("{x:.1e}").parse().unwrap_or(x))
+}
+
+/// Without the digits that rounding has left of a sum of steps.
+fn nine_digits(x: f64) -> Printed {
+    Printed(format!("{x:.8e}").parse().unwrap_or(x))
+}
+
+/// With an exponent where there would be many zeros.
+struct Printed(f64);
+
+impl core::fmt::Display for Printed {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self(x) = self;
+        if *x == 0.0 || (1e-4..1e12).contains(&x.abs()) {
+            write!(f, "{x}")
+        } else {
+            write!(f, "{x:e}")
+        }
+    }
 }

@@ -51,7 +51,7 @@ pub enum ReferenceError {
         t: f64,
     },
     /// The integration from time `t` on failed; the times in its source count from `t`.
-    #[error("the integration failed after t = {t}")]
+    #[error("the integration failed after t = {t}: {source}")]
     Integration {
         /// Time reached.
         t: f64,

@@ -17,7 +17,8 @@
 //! # The wall
 //! What ends where a method's steps become too long is its [`Wall`]. Of a refused step it is asked whether the equation of the step has a
 //! solution: from the state where the step was refused, shorter steps are solved and made longer bit by bit, each from the solution of
-//! the one before. Where that arrives, the wall is the solver's; where it ends before, as at a fold, it is the equation's.
+//! the one before. Where that arrives near the motion, the wall is the solver's, at this step: what would come after it is not known. Where
+//! no way on is found before, as at a fold, it is taken for the equation's: evidence, and no proof.
 //!
 //! ```
 //! use std::time::Duration;

@@ -140,6 +140,13 @@ impl Watch {
         self.trend.add(sample.t, change);
     }
 
+    /// Takes errors relative to a kinetic energy of at least this, J: one that the motion is known to come to.
+    #[must_use]
+    pub fn with_kinetic(mut self, kinetic: f64) -> Self {
+        self.kinetic = self.kinetic.max(kinetic);
+        self
+    }
+
     /// The number of samples.
     pub fn count(&self) -> u64 {
         self.count

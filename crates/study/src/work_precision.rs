@@ -35,7 +35,7 @@ pub use picture::picture;
 pub(crate) use reference::apart;
 pub use reference::{Reference, UnknownReference};
 pub(crate) use sweep::three_digits;
-pub use sweep::{Curve, Measured, Point, Sweep};
+pub use sweep::{Curve, MEANINGFUL, Measured, Point, Sweep};
 pub use table::csv;
 pub(crate) use table::{optional, quoted};
 pub use timing::Timing;

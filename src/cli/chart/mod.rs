@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use indicatif::ProgressBar;
 use study::contender::{Contender, Problem};
-use study::work_precision::{Curve, Reference, Sweep, Timing, csv, picture};
+use study::work_precision::{Curve, MEANINGFUL, Reference, Sweep, Timing, csv, picture};
 
 use super::args;
 use super::error::CliError;
@@ -58,16 +58,18 @@ What is measured:
   error        the largest angle between a body's attitude and the reference's, at 200 times over the run
   time         of stepping alone: the least of 20 runs, or of what fits into 2 s, at two times, one after the other
   evaluations  of the continuous model, for lgvi and composition of the discrete one; they do not depend on the machine
-  pilot        the choice of lgvi run --accuracy for ever smaller errors; the pilot run before it is not in the time
+  pilot        the choice of lgvi run --accuracy for ever smaller errors; the pilot run before it is not in the time, so
+               it is in the chart and not in the table
   setting      one counts as reaching an error only if all finer settings of its method do
+rk4, rkmk4, cf4, dp54 evaluate the model one state at a time; gauss and dp853 do it by the processor's widest instructions.
 All methods step the same model, that of lgvi run --full without the translation. Where lgvi inspect finds a smaller one,
 lgvi run is faster than the chart says. A method's line ends at the reference's own error, or after two runs of more than half a second.
 
 Exit codes:
   0    done, even if single runs of the chart failed
-  1    there is no reference, or a write failed; no file is left, old ones are as they were
+  1    there is no reference, or a write failed; each file is whole, or as it was
   2    an argument or the scene is wrong
-  130  interrupted (143: terminated); as 1";
+  130  interrupted (143: terminated); as 1, the second time at once";
 
 /// Runs the methods, writes the files and prints the table.
 pub fn execute(args: &Args) -> Result<(), CliError> {
@@ -80,7 +82,18 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
         start: loaded.start.clone(),
         until: args.until,
     };
-    let reference = Reference::new(&problem)?;
+    let reference = {
+        let _waiting = progress::waiting("finding the reference");
+        Reference::new(&problem)?
+    };
+    interrupt.heed()?;
+    if reference.attitude > MEANINGFUL {
+        print::warning(&format_args!(
+            "the reference is known to {:.0e} rad only, and errors of attitudes say little: trajectories mean nothing beyond t = {:.0} s, \
+             see --until",
+            reference.attitude, reference.horizon.time
+        ));
+    }
     let curves = sweep(&args.methods, &problem, &reference, &interrupt)?;
     let figure = picture(&curves, &problem, &reference, &title(&loaded, args.until));
     let written = files.finish(&figure.render()?, &csv(&curves, args.until))?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use study::contender::{Contender, Control, Problem};
 use study::work_precision::{Choice, Curve, Reference, cheapest};
 
-use crate::cli::print::{self, decimal, one_line};
+use crate::cli::print::{self, decimal, one_line, three_digits};
 use crate::cli::scene::Loaded;
 
 /// Attitude errors that one may ask for, rad.
@@ -39,17 +39,22 @@ impl<'a> Report<'a> {
         curves: &'a [Curve],
         files: &'a [PathBuf],
     ) -> Self {
-        let only = |keep: fn(Contender) -> bool, error| {
+        let only = |keep: &dyn Fn(Contender) -> bool, error| {
             cheapest(curves.iter().filter(|curve| keep(curve.contender)), error)
         };
         let known = ERRORS
             .into_iter()
             .filter(|error| *error >= reference.attitude);
+        // A pilot's run before the run is not in its time: it says what to take, as this table does.
+        let named = |contender: Contender| contender.control() != Control::Accuracy;
         let row = |error| Row {
             error,
-            cheapest: only(|_| true, error),
-            keeping: only(Contender::keeps_structure, error),
-            dp853: only(|contender| contender == Contender::Dp853, error),
+            cheapest: only(&named, error),
+            keeping: only(
+                &|contender| named(contender) && contender.keeps_structure(),
+                error,
+            ),
+            dp853: only(&|contender| contender == Contender::Dp853, error),
         };
         Self {
             loaded,
@@ -86,6 +91,9 @@ impl<'a> Report<'a> {
             print::columns(&table),
             self.reference.describe(until),
         );
+        if self.rows.len() < ERRORS.len() {
+            text += "Errors below the reference's own are not known, and have no row.\n";
+        }
         for curve in self.curves {
             if let Some(failures) = curve.failures(until) {
                 text += &format!("failed: {failures}\n");
@@ -132,8 +140,4 @@ fn milliseconds(choice: &Choice) -> String {
 pub fn ratio(choice: &Choice, dp853: Option<&Choice>) -> Option<f64> {
     let ratio = choice.time().as_secs_f64() / dp853?.time().as_secs_f64();
     ratio.is_finite().then_some(ratio)
-}
-
-fn three_digits(x: f64) -> String {
-    decimal(format!("{x:.2e}").parse().unwrap_or(x))
 }

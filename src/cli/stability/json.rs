@@ -40,6 +40,7 @@ struct MethodObject {
 struct LimitObject {
     value: f64,
     largest_good_step_seconds: Option<f64>,
+    shorter_steps_without_time: usize,
     wall: &'static str,
     equation_ends_at_step_seconds: Option<f64>,
     next_step_seconds: Option<f64>,
@@ -115,6 +116,7 @@ impl LimitObject {
         Self {
             value: grid.values[value],
             largest_good_step_seconds: limit.step,
+            shorter_steps_without_time: limit.untried,
             wall: limit.wall.name(),
             equation_ends_at_step_seconds: match limit.wall {
                 Wall::Equation { ends } => Some(ends),

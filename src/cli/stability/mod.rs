@@ -78,20 +78,23 @@ A run is judged by the first of these that holds:
   silently-wrong  none of these, and an attitude off by a radian from two references: 32 times over the run these start from a state
                   of the method and follow it for one step, or for as many as turn a body by half a radian
   good            none of these
+  not-run         its time was over, or there was no reference to compare with
 
 What ends the good steps:
-  solver     a step was refused, and shorter steps from the same state, made longer bit by bit, lead to a solution
-  equation   they do not: the branch of solutions ends before
+  solver     a step was refused, and shorter steps from the same state, made longer bit by bit, lead to a solution; what would come
+             after that step is not known
+  equation   they do not: no way on was found, as where two solutions meet and end
   dynamics   the energy left its band or drifted, or a number became infinite: the method's own motion, solved as it is
   structure  the method loses momenta or the group at any step, at shorter ones more slowly
-  wrong      silently wrong
-  none       nothing: all steps were good
+  wrong      silently wrong, or a refused step whose solution is another motion
+  unknown    the time was over, or there was no reference
+'0.25 solver' is a largest good step and what ends there; 'none: solver', that no step was good; '1 or more', that all were.
 
 Exit codes:
   0    done, even if runs failed or had no time
-  1    a write failed; no file is left, old ones are as they were
+  1    a write failed; each file is whole, or as it was
   2    an argument or the scene is wrong
-  130  interrupted (143: terminated); as 1";
+  130  interrupted (143: terminated); as 1, the second time at once";
 
 /// Runs the cells, writes the files and prints the table.
 pub fn execute(args: &Args) -> Result<(), CliError> {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use study::stability::{Class, Limit, Map, Outcome, Wall};
 
-use crate::cli::print::{self, decimal, one_line};
+use crate::cli::print::{self, decimal, one_line, three_digits};
 use crate::cli::scene::Loaded;
 
 /// The map and what follows from it.
@@ -35,6 +35,9 @@ impl Report<'_> {
                 text += &format!("{name}, {parameter} {}: {cause}\n", grid.values[own]);
             }
         }
+        if self.is_cut_short() {
+            text += "shorter steps had no time for some methods, which count as good there: give a longer --budget\n";
+        }
         let files = self.files.iter().map(|file| file.display().to_string());
         let files: Vec<_> = files.collect();
         text += &format!(
@@ -53,7 +56,7 @@ impl Report<'_> {
         let row = |method: usize| {
             let limit = move |value| {
                 let Limit { step, wall, .. } = self.map.limit(method, value);
-                let step = step.map_or_else(|| "none".to_owned(), decimal);
+                let step = step.map_or_else(|| "none:".to_owned(), decimal);
                 match wall {
                     Wall::None => format!("{step} or more"),
                     wall => format!("{step} {}", wall.name()),
@@ -64,6 +67,14 @@ impl Report<'_> {
         };
         let rows = (0..grid.methods.len()).map(|method| row(method).collect());
         core::iter::once(head.collect()).chain(rows).collect()
+    }
+
+    /// Whether a limit leaves out steps that had no time.
+    fn is_cut_short(&self) -> bool {
+        let grid = &self.map.grid;
+        let mut limits = (0..grid.methods.len())
+            .flat_map(|method| (0..grid.values.len()).map(move |value| (method, value)));
+        limits.any(|(method, value)| self.map.limit(method, value).untried > 0)
     }
 
     /// The index of the value that is nearest to the scene's own, of a stiffness to 1 N m.
@@ -81,13 +92,23 @@ impl Report<'_> {
             self.map.grid.steps[next],
             self.map.cell(method, value, next),
         );
-        let what = format!("in steps of {} s {}", decimal(h), what(outcome));
+        let what = match outcome.class {
+            Class::NotRun if !outcome.had_no_time(self.map.grid.until) => {
+                "there was no reference to compare with".to_owned()
+            }
+            _ => what(outcome),
+        };
+        let what = format!("in steps of {} s {what}", decimal(h));
         Some(match limit.wall {
-            Wall::Solver => format!("{what}; the solver's wall: continuation finds a solution"),
+            Wall::Solver => format!(
+                "{what}; the solver's wall: made longer bit by bit, shorter steps lead to a solution"
+            ),
+            Wall::Equation { ends: 0.0 } => {
+                format!("{what}; the equation's wall: not even much shorter steps were solved")
+            }
             Wall::Equation { ends } => {
-                format!(
-                    "{what}; the equation's wall: its branch of solutions ends at h = {ends:.3} s"
-                )
+                let ends = three_digits(ends);
+                format!("{what}; the equation's wall: beyond {ends} s no solution was found")
             }
             Wall::Dynamics(_) => format!("{what}; the dynamics' wall"),
             _ => what,

@@ -8,7 +8,8 @@ use dvi::{State, StepError};
 use crate::contender::Failure;
 use crate::watch::{Sample, Watch};
 
-/// The energy may stray by this part of the largest kinetic energy so far; a run that strays further ends there.
+/// The energy may stray by this part of the largest kinetic energy so far, that of the motion's first half radian included; a run that
+/// strays further ends there.
 pub const ENERGY_BAND: f64 = 0.1;
 /// The line through the energy's error may move by this part of the largest kinetic energy over the run …
 pub const ENERGY_DRIFT: f64 = 0.01;
@@ -126,6 +127,13 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// Whether its time was over before its turn or its end, `until`.
+    pub fn had_no_time(&self, until: f64) -> bool {
+        self.class == Class::NotRun && self.t < until
+    }
+}
+
+impl Outcome {
     /// A run that was not begun.
     pub(super) const NOT_RUN: Self = Self {
         class: Class::NotRun,
@@ -175,10 +183,11 @@ pub(super) struct Judge {
 }
 
 impl Judge {
-    pub(super) fn new(model: &ArticulatedBody, start: Sample) -> Self {
+    /// Judges a run from `start`, whose motion is known to come to this kinetic energy, J.
+    pub(super) fn new(model: &ArticulatedBody, start: Sample, kinetic: f64) -> Self {
         let bodies = || model.bodies();
         Self {
-            watch: Watch::new(model, start),
+            watch: Watch::new(model, start).with_kinetic(kinetic),
             mass: bodies().map(|body| body.mass.trace() / 3.0).sum(),
             inertia: bodies().map(|body| body.inertia.trace() / 3.0).sum(),
             attitude: None,
@@ -279,7 +288,7 @@ mod tests {
         let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
         let model = scene.model().unwrap();
         let start = Sample::take(&model, &scene.initial_state().unwrap()).unwrap();
-        let mut judge = Judge::new(&model, start);
+        let mut judge = Judge::new(&model, start, 0.0);
         judge.compare(0.1);
         for k in 1..=1000 {
             let part = f64::from(k) / 1000.0;
@@ -348,7 +357,7 @@ mod tests {
         let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
         let model = scene.model().unwrap();
         let start = Sample::take(&model, &scene.initial_state().unwrap()).unwrap();
-        let mut judge = Judge::new(&model, start);
+        let mut judge = Judge::new(&model, start, 0.0);
         assert_eq!(judge.judge(End::Reached).class, Class::NotRun);
         judge.compare(0.9 * WRONG);
         assert_eq!(judge.judge(End::Reached).class, Class::Good);

@@ -132,9 +132,9 @@ impl Parameter {
     /// Its name on an axis.
     pub fn label(self) -> &'static str {
         match self {
-            Self::Spin => "spin",
-            Self::Aspect => "aspect ratio",
-            Self::MassRatio => "mass of tails to head",
+            Self::Spin => "spin [× the scene's own]",
+            Self::Aspect => "aspect ratio [× the scene's own]",
+            Self::MassRatio => "mass of tails to head [× the scene's own]",
             Self::Stiffness => "stiffness of joints [N m]",
         }
     }

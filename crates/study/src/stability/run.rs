@@ -4,7 +4,7 @@ use articulated_fluid::Configuration;
 use dvi::{Integrator, State};
 
 use super::outcome::{End, Judge, Outcome};
-use super::window::Window;
+use super::window::{Window, kinetic_ahead};
 use crate::contender::{Contender, Problem};
 use crate::methods::BoxedIntegrator;
 use crate::watch::Sample;
@@ -33,7 +33,8 @@ pub(super) fn run(
     let Some(start) = Sample::take(&problem.model, &problem.start) else {
         return Some(Outcome::not_finite(problem.start.t));
     };
-    let mut judge = Judge::new(&problem.model, start);
+    // From rest, the first step's error is as large as its energy.
+    let mut judge = Judge::new(&problem.model, start, kinetic_ahead(problem, h));
     let end = run.follow(&mut judge, late);
     Some(judge.judge(end))
 }

@@ -21,8 +21,10 @@ const JUMP: f64 = 0.5;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Limit {
-    /// The largest step, s, such that it and all shorter ones of the grid are good; none where the shortest is not.
+    /// The largest step, s, such that it and all shorter ones of the grid that had time are good; none where the shortest is not.
     pub step: Option<f64>,
+    /// How many of the shortest steps had no time.
+    pub untried: usize,
     /// What the next longer step runs into.
     pub wall: Wall,
     /// The index of that step; none where all are good.
@@ -38,21 +40,22 @@ pub struct Limit {
 pub enum Wall {
     /// Nothing: all steps of the grid are good.
     None,
-    /// The solver: it refused a step whose equation has a solution, found from shorter steps by continuation.
+    /// The solver: it refused a step whose equation has a solution near the motion, found from shorter steps by continuation. What would
+    /// come after that step is not known.
     Solver,
-    /// The equation of the step: from the state where it was refused, the branch of solutions that starts at the state itself was followed
-    /// to this step, s, and no further.
+    /// As far as continuation can tell, the equation of the step: from the state where it was refused, the branch of solutions that starts
+    /// at the state itself was followed to this step, s, and no way on was found.
     Equation {
-        /// The longest step that was solved, s.
+        /// The longest step that was solved, s; zero where not even the shortest tried was.
         ends: f64,
     },
     /// The dynamics of the method: the energy left its band, drifted, or a number became infinite (nonlinear resonance, instability).
     Dynamics(Class),
     /// What the method does not keep at all: a momentum or the group; a shorter step only loses it more slowly.
     Structure(Class),
-    /// Another motion, which keeps all that is kept.
+    /// Another motion, which keeps all that is kept; or a refused step whose only solution leads there.
     Wrong,
-    /// The budget ended before this was known.
+    /// The budget ended before this was known, or there is no reference to tell.
     Unknown,
 }
 
@@ -80,8 +83,13 @@ impl Limit {
         cells: &[Outcome],
         late: bool,
     ) -> Self {
-        let good = cells.iter().take_while(|cell| cell.class == Class::Good);
-        let good = good.count();
+        // Long steps are run first: where the time is over, it is the short ones that are missing.
+        let tried = cells
+            .iter()
+            .position(|cell| !cell.had_no_time(problem.until));
+        let untried = tried.unwrap_or(0);
+        let good = cells[untried..].iter();
+        let good = untried + good.take_while(|cell| cell.class == Class::Good).count();
         let wall = |cell: &Outcome| match cell.class {
             Class::Good => Wall::None,
             Class::Refused if late => Wall::Unknown,
@@ -94,7 +102,8 @@ impl Limit {
             Class::NotRun => Wall::Unknown,
         };
         Self {
-            step: good.checked_sub(1).map(|last| steps[last]),
+            step: (good > untried).then(|| steps[good - 1]),
+            untried,
             wall: cells.get(good).map_or(Wall::None, wall),
             next: (good < cells.len()).then_some(good),
         }
@@ -113,12 +122,15 @@ fn refused(contender: Contender, problem: &Problem, cell: &Outcome, h: f64) -> W
     branch.follow(h);
     let Branch { start, end, .. } = &branch;
     let window = Window::open(&problem.model, start, h, 1);
-    let angle = || window?.angle(&problem.model, end);
-    match branch.reached() == h && angle().is_some_and(|angle| angle <= WRONG) {
-        true => Wall::Solver,
-        false => Wall::Equation {
+    if branch.reached() < h {
+        return Wall::Equation {
             ends: branch.reached(),
-        },
+        };
+    }
+    match window.and_then(|window| window.angle(&problem.model, end)) {
+        Some(angle) if angle <= WRONG => Wall::Solver,
+        Some(_) => Wall::Wrong,
+        None => Wall::Unknown,
     }
 }
 
@@ -204,6 +216,37 @@ mod tests {
     use articulated_fluid::{Scene, scene};
 
     use super::*;
+
+    #[test]
+    fn short_steps_that_had_no_time_hide_no_wall() {
+        let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
+        let problem = Problem {
+            model: scene.model().unwrap(),
+            start: scene.initial_state().unwrap(),
+            until: 1.0,
+        };
+        let of = |class| Outcome {
+            class,
+            ..Outcome::NOT_RUN
+        };
+        let limit = |classes: [Class; 4]| {
+            let steps = [0.1, 0.2, 0.3, 0.4];
+            let limit = Limit::new(Contender::Rk4, &problem, &steps, &classes.map(of), true);
+            (limit.step, limit.untried, limit.wall)
+        };
+        use Class::{EnergyDrift, Good, NotRun};
+        let drift = Wall::Dynamics(EnergyDrift);
+        assert_eq!(
+            limit([NotRun, NotRun, Good, EnergyDrift]),
+            (Some(0.3), 2, drift)
+        );
+        assert_eq!(limit([NotRun, EnergyDrift, Good, Good]), (None, 1, drift));
+        assert_eq!(
+            limit([Good, NotRun, Good, Good]),
+            (Some(0.1), 0, Wall::Unknown)
+        );
+        assert_eq!(limit([NotRun; 4]), (None, 0, Wall::Unknown));
+    }
 
     #[test]
     fn continuation_finds_the_solution_of_a_step_that_has_one() {

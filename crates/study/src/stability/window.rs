@@ -8,7 +8,7 @@ use crate::baseline::Tolerance;
 use crate::contender::{Contender, Problem, Setting};
 use crate::methods::Method;
 use crate::on_group;
-use crate::watch::fastest_rate;
+use crate::watch::{Sample, fastest_rate};
 use crate::work_precision::apart;
 
 /// Of the reference's steps: it is to tell a radian.
@@ -23,6 +23,33 @@ const CHECK: Contender = Contender::Structure(Method::Gauss8);
 const CHECK_STEPS: f64 = 8.0;
 /// To this part of the angle in question.
 const AGREES: f64 = 0.1;
+
+/// The largest kinetic energy, J, of the motion until it has turned a body by half a radian: after a step of `h`, after twice that and so
+/// on; of as much of it as there is a reference for.
+pub(super) fn kinetic_ahead(problem: &Problem, h: f64) -> f64 {
+    let Problem {
+        model,
+        start,
+        until,
+    } = problem;
+    let tolerance = Tolerance::uniform(TOLERANCE);
+    let (mut ahead, mut state, mut kinetic) = (h, start.clone(), 0.0_f64);
+    if fastest_rate(model, start).is_none_or(|rate| h * rate > MOST) {
+        return kinetic;
+    }
+    loop {
+        let to = start.t + ahead.min(*until);
+        let Ok(next) = on_group::integrate(model, &state, to, tolerance) else {
+            return kinetic;
+        };
+        let sample = Sample::take(model, &next);
+        kinetic = kinetic.max(sample.map_or(0.0, |sample| sample.kinetic));
+        if ahead >= *until || apart(model, start, &next) >= TURNED {
+            return kinetic;
+        }
+        (ahead, state) = (2.0 * ahead, next);
+    }
+}
 
 /// A state on a method's way, and where the motion goes from there.
 pub(super) struct Window {

@@ -37,6 +37,7 @@ impl Errors {
         states: &[State<Configuration>],
         reference: &[State<Configuration>],
     ) -> Result<Self, Failure> {
+        debug_assert_eq!(states.len(), reference.len(), "at the same times");
         let mut watch: Option<Watch> = None;
         let (mut attitude, mut position) = (0.0, 0.0);
         for (state, exact) in states.iter().zip(reference) {

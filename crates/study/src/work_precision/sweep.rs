@@ -13,6 +13,8 @@ const TOLERANCES: (i32, i32) = (2, 13);
 const NEAR: f64 = 3.0;
 /// Within so many, an error that no longer shrinks is rounding's.
 const PLATEAU: f64 = 100.0;
+/// A reference whose own error, rad, is larger does not tell an error of attitudes.
+pub const MEANINGFUL: f64 = 1e-2;
 /// So many times longer may a run take that fails: its steps are too long, and shorter ones are solved faster.
 const LATE: u32 = 10;
 /// No more settings than this.
@@ -171,7 +173,9 @@ impl<'a> Sweep<'a> {
             self.stalled + 1
         };
         self.best = self.best.min(error);
-        error <= NEAR * floor || (self.stalled >= 2 && error <= PLATEAU * floor)
+        let is_rounding = error <= NEAR * floor || (self.stalled >= 2 && error <= PLATEAU * floor);
+        // Beyond its horizon a motion has no floor, and the energy is still worth a look.
+        is_rounding && floor <= MEANINGFUL
     }
 
     /// The next finer setting: by the order, errors fall by ten, but no step by more than two.

@@ -2,6 +2,7 @@
 
 use dvi::{Integrator, laws};
 use study::contender::{Contender, Control, Failure, Setting, UnknownContender};
+use study::work_precision::{Errors, Reference, SAMPLES};
 
 use crate::common::paper;
 
@@ -80,6 +81,31 @@ fn a_setting_is_for_its_own_control() {
     }
 }
 
+/// Against the pair of a library, in charts: what all ratios of time are measured by goes where the motion goes, and no further from it
+/// than its tolerance says.
+#[test]
+fn the_yardstick_is_accurate() {
+    let problem = paper(2.0);
+    let exact = Reference::new(&problem).unwrap();
+    for (name, tolerance) in [
+        ("dp853", 1e-6),
+        ("dp853", 1e-9),
+        ("dp853", 1e-12),
+        ("dp54", 1e-9),
+    ] {
+        let states = named(name).sample(&problem, Setting::Tolerance(tolerance), SAMPLES);
+        let errors = Errors::new(&problem.model, &states.unwrap(), &exact.states).unwrap();
+        assert!(
+            errors.attitude < 100.0 * tolerance,
+            "{name} {tolerance:e}: {errors:?}"
+        );
+        assert!(
+            errors.attitude > 1e-3 * tolerance,
+            "{name} {tolerance:e}: {errors:?}"
+        );
+    }
+}
+
 #[test]
 fn samples_are_those_of_the_run() {
     let problem = paper(1.0);
@@ -87,6 +113,7 @@ fn samples_are_those_of_the_run() {
         ("gauss-2", Setting::Steps(12)),
         ("rk4", Setting::Steps(12)),
         ("dp54", Setting::Tolerance(1e-8)),
+        ("dp853", Setting::Tolerance(1e-8)),
         ("pilot", Setting::Accuracy(1e-6)),
     ] {
         let few = named(name).sample(&problem, setting, 4).unwrap();

@@ -11,6 +11,7 @@ use study::stability::{
 
 const PAPER: &str = include_str!("../../../../scenes/fish-chain.toml");
 const SEMI_AXES: &str = include_str!("../../../../scenes/fish-chain-from-semi-axes.toml");
+const FROM_REST: &str = include_str!("../../../../scenes/hard/from-rest.toml");
 /// It turns steadily at 0.5 rad/s.
 const TOP: &str = "
     [fluid]
@@ -80,6 +81,15 @@ fn every_class_is_one_of_a_real_run() {
         );
         assert_eq!(found.t >= 0.999 * until, reached, "{name} {h}: {found:?}");
     }
+}
+
+/// The first step's error is as large as its energy, which is no energy of the motion to compare it with.
+#[test]
+fn a_start_from_rest_is_judged_by_the_motion_that_follows() {
+    let found = outcome(FROM_REST, "lgvi", 1e-3, 4.0);
+    assert_eq!(found.class, Class::Good, "{found:?}");
+    let energy = found.energy.unwrap();
+    assert!(energy > 1e-5 && energy < 0.01, "{found:?}");
 }
 
 #[test]

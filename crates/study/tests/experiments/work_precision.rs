@@ -56,7 +56,7 @@ fn what_fails_is_on_the_chart_with_its_cause() {
             && composition
                 .failures(4.0)
                 .unwrap()
-                .contains("no solution for h")
+                .contains("no solution found for h")
     );
     assert!(
         measured(gauss.points.last().unwrap())
@@ -108,7 +108,7 @@ fn what_fails_is_on_the_chart_with_its_cause() {
     assert!(table.lines().all(|line| columns(line) == 16), "{table}");
     let points = curves.iter().flat_map(|curve| &curve.points);
     let failures = points.filter(|point| point.outcome.is_err()).count();
-    assert_eq!(table.matches("no solution for h").count(), failures);
+    assert_eq!(table.matches("no solution found for h").count(), failures);
 }
 
 #[test]
