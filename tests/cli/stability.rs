@@ -31,7 +31,7 @@ fn two_methods_give_three_files_and_a_table() {
         "largest good step",
         "mass-ratio",
         "0.05 equation",
-        "none structure",
+        "none: structure",
         "lgvi, mass-ratio 1: in steps of 1 s a step is refused",
         "8 runs: 2 good",
         "written: stability.svg, stability.png, stability.csv",
@@ -93,7 +93,7 @@ fn what_has_no_time_is_told() {
     let told = text(&output.stdout);
     assert_eq!(output.status.code(), Some(0));
     assert!(
-        told.contains("none unknown") && told.contains("1 runs: 1 not-run"),
+        told.contains("none: unknown") && told.contains("1 runs: 1 not-run"),
         "{told}"
     );
 }

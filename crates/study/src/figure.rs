@@ -103,6 +103,8 @@ pub enum Style {
     Solid,
     Dashed,
     Dotted,
+    /// So wide that others are drawn on it.
+    Broad,
     /// Markers alone.
     Invisible,
 }

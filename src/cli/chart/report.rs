@@ -39,22 +39,17 @@ impl<'a> Report<'a> {
         curves: &'a [Curve],
         files: &'a [PathBuf],
     ) -> Self {
-        let only = |keep: &dyn Fn(Contender) -> bool, error| {
+        let only = |keep: fn(Contender) -> bool, error| {
             cheapest(curves.iter().filter(|curve| keep(curve.contender)), error)
         };
         let known = ERRORS
             .into_iter()
             .filter(|error| *error >= reference.attitude);
-        // A pilot's run before the run is not in its time: it says what to take, as this table does.
-        let named = |contender: Contender| contender.control() != Control::Accuracy;
         let row = |error| Row {
             error,
-            cheapest: only(&named, error),
-            keeping: only(
-                &|contender| named(contender) && contender.keeps_structure(),
-                error,
-            ),
-            dp853: only(&|contender| contender == Contender::Dp853, error),
+            cheapest: only(|_| true, error),
+            keeping: only(Contender::keeps_structure, error),
+            dp853: only(|contender| contender == Contender::Dp853, error),
         };
         Self {
             loaded,

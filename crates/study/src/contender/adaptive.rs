@@ -67,6 +67,11 @@ pub(super) fn sample(
             let every = every * (1.0 - f64::EPSILON);
             let tolerance = Tolerance::uniform(tolerance);
             dop853::sample(model, start, *until, (every, &mut each), tolerance)?;
+            let times = problem.times(samples);
+            states
+                .iter_mut()
+                .zip(times)
+                .for_each(|(state, t)| state.t = t);
             Ok(states)
         }
         Contender::Dp54 => {

@@ -10,7 +10,7 @@ const WINDING: f64 = 2.5;
 /// Lengths of dash and gap, in pixels.
 fn pattern(style: Style) -> Option<(f64, f64)> {
     match style {
-        Style::Solid | Style::Invisible => None,
+        Style::Solid | Style::Broad | Style::Invisible => None,
         Style::Dashed => Some((9.0, 5.5)),
         Style::Dotted => Some((2.2, 4.0)),
     }

@@ -21,6 +21,7 @@ const RULE: RGBColor = RGBColor(229, 229, 229);
 
 /// Widths of strokes.
 const CURVE: f64 = 2.0;
+const BROAD: f64 = 12.0;
 const THIN: f64 = 1.0;
 
 const TICK_LENGTH: f64 = 5.0;
@@ -110,8 +111,12 @@ fn rules<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell) -> Done {
 
 fn curve<B: DrawingBackend>(on: &mut Surface<B>, cell: &Cell, line: &Line) -> Done {
     let points = line.points.iter().filter_map(|p| cell.pixel(*p));
+    let width = match line.style {
+        Style::Broad => BROAD,
+        _ => CURVE,
+    };
     for stroke in dash(thin(points), line.style) {
-        on.stroke(&stroke, colour(line.colour), CURVE)?;
+        on.stroke(&stroke, colour(line.colour), width)?;
     }
     match line.marker {
         Some(marker) => marks(on, cell, line, marker),

@@ -3,7 +3,10 @@
 use std::time::Duration;
 
 use super::{Curve, Measured, Point};
-use crate::contender::{Contender, Setting};
+use crate::contender::{Contender, Control, Setting};
+
+/// From one radian down.
+const DECADES: i32 = 15;
 
 /// The cheapest way to an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,8 +49,18 @@ fn attitude(point: &Point) -> f64 {
     outcome.map_or(f64::INFINITY, |measured| measured.errors.attitude)
 }
 
-/// The cheapest way to an attitude error, rad, among these methods.
+/// The cheapest way to an attitude error, rad, among these methods. A pilot's is none of them: the run before its run is not in its time.
 pub fn cheapest<'a>(curves: impl IntoIterator<Item = &'a Curve>, error: f64) -> Option<Choice> {
-    let choices = curves.into_iter().filter_map(|curve| curve.cheapest(error));
+    let curves = curves.into_iter();
+    let named = curves.filter(|curve| curve.contender.control() != Control::Accuracy);
+    let choices = named.filter_map(|curve| curve.cheapest(error));
     choices.min_by_key(Choice::time)
+}
+
+/// The cheapest ways to ever smaller errors, four to a decade: the least time and the attitude error at it.
+pub(super) fn frontier(curves: &[Curve]) -> Vec<Choice> {
+    let errors = (0..4 * DECADES).map(|k| 10_f64.powf(-0.25 * f64::from(k)));
+    let mut choices: Vec<_> = errors.map_while(|error| cheapest(curves, error)).collect();
+    choices.dedup();
+    choices
 }

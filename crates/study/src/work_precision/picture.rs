@@ -1,6 +1,7 @@
 //! The points as a chart.
 
-use super::{Curve, Measured, Point, Reference};
+use super::cheapest::frontier;
+use super::{Choice, Curve, Measured, Point, Reference};
 use crate::contender::{Contender, Control, Kind, Problem};
 use crate::figure::{Colour, Figure, Labels, Level, Line, Marker, Panel, Scale, Style};
 
@@ -16,8 +17,8 @@ const MARKERS: [Marker; 6] = [
     Marker::Plus,
 ];
 
-const LEGEND: &str = "Solid: keep the group, the symplectic form and the momentum maps; dashed: do not. A point is a step size or a \
-tolerance. Errors are the largest over the run. Time is the least of up to 20 runs. Failed runs (×) stand where their number of steps \
+const LEGEND: &str = "Solid: keep the group, the symplectic form and the momentum maps; dashed: do not. A point is a step size, a tolerance \
+or an accuracy. Yellow: the cheapest of all, but for pilot, which has run before the time counts. Errors are the largest over the run. Time is the least of up to 20 runs. Failed runs (×) stand where their number of steps \
 would have put them.";
 
 /// A quantity of a measured run.
@@ -53,18 +54,20 @@ pub fn picture(curves: &[Curve], problem: &Problem, reference: &Reference, title
     let chart = Chart { curves, problem };
     let floor = Some(reference.attitude);
     let failed_energy = 10.0 * chart.largest(ENERGY.quantity).max(1e-3);
+    let mut first = chart.panel(
+        "(a) accuracy and time",
+        [TIME, ATTITUDE],
+        FAILED_ATTITUDE,
+        floor,
+    );
+    first.lines.insert(0, chart.cheapest());
     Figure {
         title: title.to_owned(),
         columns: 1,
         labels: Labels::Ends,
         plot_height: PLOT_HEIGHT,
         panels: vec![
-            chart.panel(
-                "(a) accuracy and time",
-                [TIME, ATTITUDE],
-                FAILED_ATTITUDE,
-                floor,
-            ),
+            first,
             chart.panel(
                 "(b) accuracy and evaluations",
                 [EVALUATIONS, ATTITUDE],
@@ -106,6 +109,22 @@ impl Chart<'_> {
         let points = self.curves.iter().flat_map(|curve| &curve.points);
         let values = points.filter_map(|point| quantity(point.outcome.as_ref().ok()?));
         values.fold(0.0, f64::max)
+    }
+
+    /// What to take for which error.
+    fn cheapest(&self) -> Line {
+        let choices = frontier(self.curves).into_iter();
+        let place = |choice: Choice| {
+            let Measured { cost, errors, .. } = choice.measured;
+            (cost.time.as_secs_f64(), errors.attitude)
+        };
+        Line {
+            label: String::new(),
+            colour: Colour::Yellow,
+            style: Style::Broad,
+            marker: None,
+            points: choices.map(place).collect(),
+        }
     }
 
     fn lines(&self, axes: (Quantity, Quantity), failed: f64) -> Vec<Line> {
