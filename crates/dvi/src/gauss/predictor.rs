@@ -2,7 +2,7 @@
 
 use lie::{Batch, Retraction};
 
-use super::extrapolation::{STEPS, extrapolation};
+use super::extrapolation::{Rows, STEPS, continuation, extrapolation};
 use super::stages::{Matrix, Stages};
 use super::sweep::Sweep;
 use super::tableau::Tableau;
@@ -122,19 +122,17 @@ impl<S: Batch<Item = f64>> Predictor<S> {
     }
 }
 
-/// The degree of the polynomial through so many steps: higher ones follow the past closer and extrapolate worse.
-fn degree(stages: usize, steps: usize) -> usize {
-    match stages {
-        0..=5 => stages + 1,
-        _ => [5, 9, 12][steps - 1],
-    }
-}
-
 /// Sets the matrices, one for each step that is continued.
 fn set<S: Batch>(matrices: &mut [Matrix<S>], tableau: &Tableau, ratio: f64) {
     let (stages, steps) = (tableau.nodes.len(), matrices.len());
-    let rows = extrapolation(tableau, steps, ratio, degree(stages, steps));
-    for (m, matrix) in matrices.iter_mut().enumerate() {
-        matrix.set(stages, |i, j| rows[i][m * stages + j]);
+    let mut set = |rows: &Rows| {
+        for (m, matrix) in matrices.iter_mut().enumerate() {
+            matrix.set(stages, |i, j| rows[i][m * stages + j]);
+        }
+    };
+    if ratio == 1.0 {
+        set(continuation(tableau, steps));
+    } else {
+        set(&extrapolation(tableau, steps, ratio));
     }
 }

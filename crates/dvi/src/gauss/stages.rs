@@ -114,34 +114,40 @@ impl<S: Batch> Matrix<S> {
         values: &Stages<S>,
         start: &[S::Item],
     ) {
-        let out = out.block_mut(k);
-        out.copy_from_slice(extra.block(k));
-        self.add_products(k, out, values);
-        let h = S::splat(h);
-        for (out, start) in out.iter_mut().zip(start) {
-            *out = h.mul_add(*out, S::splat(*start));
-        }
+        let (extra, h) = (extra.block(k), S::splat(h));
+        let end = |d: usize, sum| h.mul_add(sum, S::splat(start[d]));
+        self.sum_products(k, out.block_mut(k), values, (|d: usize, _| extra[d], end));
     }
 
     /// Adds $\sum_j m_{ij} v_j$.
     #[inline(always)]
     pub(super) fn add(&self, out: &mut Stages<S>, values: &Stages<S>) {
         for k in 0..out.blocks() {
-            self.add_products(k, out.block_mut(k), values);
+            let as_is = |_: usize, value| value;
+            self.sum_products(k, out.block_mut(k), values, (as_is, as_is));
         }
     }
 
-    /// Adds $\sum_j m_{ij} v_j$ for the stages of block `k`.
+    /// $o_i \leftarrow e(b(o_i) + \sum_j m_{ij} v_j)$ for the stages of block `k`, in one pass where all stages are of it.
     #[inline(always)]
-    fn add_products(&self, k: usize, out: &mut [S], values: &Stages<S>) {
+    fn sum_products(
+        &self,
+        k: usize,
+        out: &mut [S],
+        values: &Stages<S>,
+        (begin, end): (impl Fn(usize, S) -> S, impl Fn(usize, S) -> S),
+    ) {
         let row = &self.values[k * self.columns..][..self.columns];
+        let last = values.blocks() - 1;
         for (l, weights) in row.chunks_exact(S::ITEMS).enumerate() {
             let items = S::items(values.block(l));
+            let before = |d, value| if l == 0 { begin(d, value) } else { value };
+            let after = |d, sum| if l == last { end(d, sum) } else { sum };
             match S::ITEMS {
-                1 => add_columns::<S, 1>(out, weights, items),
-                2 => add_columns::<S, 2>(out, weights, items),
-                4 => add_columns::<S, 4>(out, weights, items),
-                _ => add_columns::<S, 8>(out, weights, items),
+                1 => columns::<S, 1>(out, weights, items, (before, after)),
+                2 => columns::<S, 2>(out, weights, items, (before, after)),
+                4 => columns::<S, 4>(out, weights, items, (before, after)),
+                _ => columns::<S, 8>(out, weights, items, (before, after)),
             }
         }
     }
@@ -149,15 +155,20 @@ impl<S: Batch> Matrix<S> {
 
 /// Adds $\sum_j w_j v_j$ for the `N` stages of a block, its weights held in registers.
 #[inline(always)]
-fn add_columns<S: Batch, const N: usize>(out: &mut [S], weights: &[S], items: &[S::Item]) {
+fn columns<S: Batch, const N: usize>(
+    out: &mut [S],
+    weights: &[S],
+    items: &[S::Item],
+    (before, after): (impl Fn(usize, S) -> S, impl Fn(usize, S) -> S),
+) {
     let mut held = [S::zero(); N];
     held.copy_from_slice(weights);
-    for (out, items) in out.iter_mut().zip(items.as_chunks::<N>().0) {
-        let mut sum = *out;
+    for (d, (out, items)) in out.iter_mut().zip(items.as_chunks::<N>().0).enumerate() {
+        let mut sum = before(d, *out);
         for j in 0..N {
             sum = S::splat(items[j]).mul_add(held[j], sum);
         }
-        *out = sum;
+        *out = after(d, sum);
     }
 }
 
