@@ -32,6 +32,8 @@ const CYCLIC_ITERATIONS: u32 = 3;
 const NOISE: f64 = 1e3 * f64::EPSILON;
 /// A residual below this is at a root; it may rise by rounding.
 const AT_ROOT: f64 = 1e-6;
+/// The shortest part of a correction that is tried where the whole makes the residual grow.
+const SHORTEST_CORRECTION: f64 = 1e-2;
 /// How far a root whose matrix has turned an even number of pivots may lie from the one before, continued in proportion to $h$.
 const NEAR: f64 = 0.25;
 /// The shortest part of a step that its solution is followed by.
@@ -472,7 +474,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     }
 
     /// Iterates from the coordinates in `c`, which `coordinates` are too, until the residual is within the tolerance, or stands below the
-    /// floor. With the exact matrix it has to fall: else the iteration leads anywhere.
+    /// floor. With the exact matrix it has to fall, by a part of the correction where not by all: else the iteration leads anywhere.
     fn iterate<R: Retraction>(
         &mut self,
         lagrangian: &L,
@@ -488,13 +490,13 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             turns: 0,
         };
         let [mut first, mut best, mut last, mut before] = [f64::INFINITY; 4];
-        let mut exact = false;
+        let (mut exact, mut part) = (false, 1.0);
         for iterations in 1..=MAX_ITERATIONS {
             self.evaluate::<R>(lagrangian, state, h);
             if iterations == 1 {
                 self.scale = self.momenta(lagrangian, &state.mu);
             }
-            let residual = self.residual(lagrangian);
+            let mut residual = self.residual(lagrangian);
             // Over two iterations: the contraction's eigenvalues are complex, and single ones jump.
             let slow = match before.is_finite() {
                 true => residual > M::SLOW * last && residual > M::SLOW * M::SLOW * before,
@@ -506,8 +508,12 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                     self.solver.renew::<R>(lagrangian, state, h, &self.c);
                 }
                 let more = self.finish_cyclic::<R>(lagrangian, state, h);
+                if self.scale == 0.0 {
+                    // Only the cyclic coordinates have moved, and the others follow.
+                    self.scale = self.momenta(lagrangian, &state.mu);
+                }
                 // What that has moved may be just above the tolerance again: then iterate on.
-                let residual = self.residual(lagrangian);
+                residual = self.residual(lagrangian);
                 if residual <= tolerance || (stands && residual < floor) {
                     // The iteration contracts: the solution's matrix has the signs of the one that it is found by.
                     return Ended {
@@ -524,9 +530,15 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             }
             best = best.min(residual);
             let falls = residual <= last.max(AT_ROOT);
+            if exact && !falls && part > SHORTEST_CORRECTION {
+                part *= 0.5;
+                self.c.add_scaled(part, &self.delta);
+                continue;
+            }
             if exact && !falls {
                 return ended(End::Nowhere, iterations, best);
             }
+            part = 1.0;
             if self.solver.is_stale() || slow || !residual.is_finite() {
                 // Where the steps before have led astray, the exact matrix is that of the start.
                 let astray = residual.is_nan() || residual > first;

@@ -59,10 +59,10 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         self.solve();
     }
 
-    /// Moves the iterate by the correction.
-    pub(super) fn correct(&mut self) {
+    /// Moves the iterate by a multiple of the correction.
+    pub(super) fn correct(&mut self, part: f64) {
         for (x, delta) in self.x.iter_mut().zip(&self.correction) {
-            *x -= delta;
+            *x -= part * delta;
         }
     }
 

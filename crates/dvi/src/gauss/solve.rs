@@ -264,7 +264,13 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             }
             // Beyond a change that grows lies any root.
             if change.is_nan() || change > last {
-                break;
+                if renewed || iterations == 1 {
+                    break;
+                }
+                // Back to where the matrix of the steps before has led away from.
+                newton.correct(-1.0);
+                (last, stale) = (f64::INFINITY, true);
+                continue;
             }
             if stale || change > KEEPS_MATRIX * last {
                 newton.renew::<R>(system, state, h);
@@ -272,7 +278,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             }
             (last, stale) = (change, false);
             newton.linearise(&self.sweep);
-            newton.correct();
+            newton.correct(1.0);
         }
         newton.forget();
         Ended::Slow(report)
