@@ -282,6 +282,20 @@ impl<L: DiscreteLagrangian, const P: u32> Integrator for Composition<L, P> {
             Half::Adjoint(adjoint) => adjoint.step(state, h),
         })
     }
+
+    /// By looking ahead with each part: none of them counts a step.
+    fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
+        let (mut ahead, steps) = (state.clone(), self.steps);
+        let peeked = self.each_part(&mut ahead, h, |half, state, h| {
+            *state = match half {
+                Half::Method(method) => method.peek(state, h)?,
+                Half::Adjoint(adjoint) => adjoint.peek(state, h)?,
+            };
+            Ok(StepReport::default())
+        });
+        self.steps = steps;
+        peeked.map(|_| ahead)
+    }
 }
 
 impl<L: DiscreteLagrangian, const P: u32> FirstVariation for Composition<L, P> {

@@ -18,8 +18,7 @@ pub enum StepError {
         t: f64,
         /// Step size, in seconds.
         h: f64,
-        /// The smallest residual reached, relative to the momentum's size; where a root was found that is not the motion's, its distance
-        /// from where that was expected, relative to it.
+        /// The smallest residual reached, relative to the momentum's size.
         residual: f64,
         /// Iterations done.
         iterations: u32,
@@ -100,6 +99,9 @@ impl StepError {
                     Hint::SmallerStep { h: smaller } => Hint::SmallerStep {
                         h: h * (smaller / part).abs(),
                     },
+                    Hint::AnotherBranch { h: smaller } => Hint::AnotherBranch {
+                        h: h * (smaller / part).abs(),
+                    },
                     hint => hint,
                 },
             },
@@ -127,6 +129,11 @@ pub enum Hint {
         /// A step size to try, in seconds.
         h: f64,
     },
+    /// The iteration led to a solution that is not the motion's: the equation of a long step has many.
+    AnotherBranch {
+        /// A step size to try, in seconds.
+        h: f64,
+    },
     /// The iteration stood still just above the tolerance: rounding reaches no further.
     LooserTolerance {
         /// A relative tolerance to try.
@@ -142,6 +149,11 @@ impl core::fmt::Display for Hint {
             Self::SmallerStep { h } => {
                 write!(f, "try a smaller step, such as {} s", two_digits(*h))
             }
+            Self::AnotherBranch { h } => write!(
+                f,
+                "what was found is not the motion's: try a smaller step, such as {} s",
+                two_digits(*h)
+            ),
             Self::LooserTolerance { tolerance } => write!(
                 f,
                 "rounding reaches no further: try a tolerance of {tolerance:.0e}, or another step"

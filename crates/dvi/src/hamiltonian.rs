@@ -128,6 +128,9 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
                 residual = larger(residual, entry.magnitude());
                 size = larger(size, mu(i).magnitude() + self.gradient.get(i).magnitude());
             }
+            if residual.is_nan() && last.is_infinite() {
+                return false;
+            }
             if part > SHORTEST && (residual.is_nan() || residual > 2.0 * last) {
                 part *= 0.5;
                 self.correct(-part);

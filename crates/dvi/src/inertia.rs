@@ -124,15 +124,21 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
         state: &State<L::Group>,
         h: f64,
         c: &Algebra<L>,
-    ) {
+    ) -> bool {
         if c.dim() > DENSE_LIMIT {
-            return;
+            return false;
         }
         let exact = self
             .exact
             .get_or_insert_with(|| StepSolver::<L>::allocate(lagrangian, &state.g));
         StepSolver::<L>::renew::<R>(exact, lagrangian, state, h, c);
         self.takes_exact = true;
+        true
+    }
+
+    fn turns(&self) -> usize {
+        let exact = self.exact.as_ref().filter(|_| self.takes_exact);
+        exact.map_or(0, StepSolver::<L>::turns)
     }
 
     #[inline(always)]

@@ -36,9 +36,11 @@
 //! [`Variational::new`] takes Newton's matrix from dual numbers and keeps it until convergence slows;
 //! [`Variational::with_inertia`] takes the inertia of a model that solves it fast ([`Inertia`]).
 //!
-//! The balance of a long step has many roots, and the motion's is the one that grows from no displacement at $h = 0$. A root that is far from
-//! where it was expected is not taken: the solution is then followed from shorter steps, and where it ends before the step's size, the step
-//! is refused.
+//! The balance of a long step has many roots, and the motion's is the one that grows from no displacement at $h = 0$. There the balance's
+//! matrix is the inertia; where the motion's root ends it meets another and the matrix is singular, so that beyond, a pivot has another sign. A root with
+//! such a pivot is not taken, nor one that Newton's method has found by a residual that does not fall: the solution is then followed from shorter
+//! steps, and where it ends before the step's size, the step is refused. This is evidence and no proof: where a force changes so much within a step
+//! that several roots have the inertia's signs, the one that the steps before lead to is taken.
 //!
 //! The new momentum is the coadjoint transport of the old one, not a difference quotient: so momentum maps hold to rounding
 //! even at a loose tolerance, and say nothing about whether the step was solved. The [`StepReport`]'s residual does.

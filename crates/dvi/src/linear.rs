@@ -15,6 +15,7 @@ pub(crate) struct Factorisation {
     factors: Mat<f64>,
     forward: Vec<usize>,
     inverse: Vec<usize>,
+    swaps: usize,
     rhs: Vec<f64>,
     memory: MemBuffer,
 }
@@ -28,6 +29,7 @@ impl Factorisation {
             factors: Mat::zeros(n, n),
             forward: vec![0; n],
             inverse: vec![0; n],
+            swaps: 0,
             rhs: vec![0.0; n],
             memory: MemBuffer::new(factor.or(solve)),
         }
@@ -48,7 +50,7 @@ impl Factorisation {
 
     pub(crate) fn factorise(&mut self) {
         self.factors.copy_from(&self.matrix);
-        factor::lu_in_place(
+        let (info, _) = factor::lu_in_place(
             self.factors.as_mut(),
             &mut self.forward,
             &mut self.inverse,
@@ -56,6 +58,7 @@ impl Factorisation {
             MemStack::new(&mut self.memory),
             Spec::default(),
         );
+        self.swaps = info.transposition_count;
     }
 
     /// Whether a pivot is rounding beside its row, or not a number.
@@ -77,17 +80,23 @@ impl Factorisation {
     pub(crate) fn turns_over(&self) -> bool {
         let n = self.rhs.len();
         let negative = (0..n).filter(|i| self.factors[(*i, *i)] < 0.0).count();
-        // Each cycle of the permutation is one swap less than it is long.
-        let mut seen = vec![false; n];
-        let mut cycles = 0;
-        for first in 0..n {
-            let mut i = first;
-            cycles += usize::from(!seen[first]);
-            while !core::mem::replace(&mut seen[i], true) {
-                i = self.forward[i];
+        (negative + self.swaps) % 2 == 1
+    }
+
+    /// How many pivots are negative as the matrix whose columns `map` makes of this one's is eliminated without exchanges: as many as
+    /// eigenvalues where it is symmetric (J. J. Sylvester). The factors are lost.
+    pub(crate) fn index(&mut self, mut map: impl FnMut(&[f64], &mut [f64])) -> usize {
+        let (n, a) = (self.rhs.len(), &mut self.factors);
+        (0..n).for_each(|j| map(self.matrix.col_as_slice(j), a.col_as_slice_mut(j)));
+        for k in 0..n {
+            for j in k + 1..n {
+                let factor = a[(k, j)] / a[(k, k)];
+                for i in k + 1..n {
+                    a[(i, j)] -= factor * a[(i, k)];
+                }
             }
         }
-        (negative + n - cycles) % 2 == 1
+        (0..n).filter(|i| a[(*i, *i)] < 0.0).count()
     }
 
     pub(crate) fn right_hand_side(&mut self) -> &mut [f64] {

@@ -29,6 +29,12 @@ pub struct Newton<G: RealGroup> {
     g: Over<G, J>,
     mu: DualOver<G, J>,
     c: AlgebraOver<G, J>,
+    /// Negative pivots of the matrix in the chart, and of the inertia.
+    index: usize,
+    inertia: Option<usize>,
+    /// A column of the matrix: in the frame of the step's end, of its start, and in the chart.
+    column: [G::Dual; 3],
+    f: G,
 }
 
 impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
@@ -36,6 +42,7 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
 
     fn allocate(lagrangian: &L, g: &L::Group) -> Self {
         let (dim, cyclic) = (g.zero_dual().dim(), lagrangian.cyclic());
+        let (f, column) = (g.clone(), core::array::from_fn(|_| g.zero_dual()));
         let g = g.lift::<J>();
         Self {
             matrix: Factorisation::new(dim),
@@ -47,6 +54,10 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
             mu: g.zero_dual(),
             c: g.zero_algebra(),
             g,
+            index: 0,
+            inertia: None,
+            column,
+            f,
         }
     }
 
@@ -62,13 +73,21 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
         !self.known
     }
 
+    fn turns(&self) -> usize {
+        self.inertia
+            .map_or(0, |inertia| inertia.abs_diff(self.index))
+    }
+
     fn renew<R: Retraction>(
         &mut self,
         lagrangian: &L,
         state: &State<L::Group>,
         h: f64,
         c: &Algebra<L>,
-    ) {
+    ) -> bool {
+        let inertia =
+            || inertia(lagrangian, state, h.abs()).index(|column, out| out.copy_from_slice(column));
+        self.inertia.get_or_insert_with(inertia);
         (self.h, self.scale) = (h, 1.0);
         let State { t, g, mu } = state;
         let (t, h) = (J::constant(*t), J::constant(h));
@@ -91,8 +110,10 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
             block.copy_block(&self.matrix, lagrangian.cyclic());
             block.factorise();
         }
+        self.index = self.index_in_chart::<R>(c);
         self.matrix.factorise();
         self.known = true;
+        true
     }
 
     fn solve(&mut self, _: &L, residual: &Dual<L>, delta: &mut Algebra<L>) {
@@ -124,22 +145,54 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
     }
 }
 
-/// Whether $L_d$ has no inertia in some direction, where the dimension is small enough to look: $\mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ is singular at $f = e$.
+impl<G: RealGroup> Newton<G> {
+    /// The index of $h (\mathrm d\tau_c)^\ast A$: of the matrix with its residual in the chart too, where a turn of the body does not enter.
+    fn index_in_chart<R: Retraction>(&mut self, c: &G::Algebra) -> usize {
+        let Self {
+            f,
+            column: [end, start, chart],
+            matrix,
+            h,
+            ..
+        } = self;
+        R::retract_into::<G>(c, f);
+        matrix.index(|column, out| {
+            end.read(column);
+            f.inverse_coadjoint_into(end, start);
+            G::chart_leave_into::<R>(c, start, (&mut *f, &mut *end, &mut *chart));
+            chart.scale(h.signum());
+            chart.write(out);
+        })
+    }
+}
+
+/// Whether $L_d$ has no inertia in some direction, where the dimension is small enough to look.
 pub(crate) fn is_degenerate<L: DiscreteLagrangian>(
     lagrangian: &L,
     state: &State<L::Group>,
     h: f64,
 ) -> bool {
-    const VANISHING: f64 = 1e-8;
     if state.mu.dim() > DENSE_LIMIT {
         return false;
     }
+    let mut inertia = inertia(lagrangian, state, h);
+    inertia.factorise();
+    inertia.is_singular()
+}
+
+/// $\mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ at $f = e$, in so short a part of the step that a potential is rounding beside
+/// the inertia.
+fn inertia<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    state: &State<L::Group>,
+    h: f64,
+) -> Factorisation {
+    const VANISHING: f64 = 1e-8;
     let g = state.g.lift::<J>();
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
     let mut derivatives = Derivatives::new(&g);
     let dim = c.dim();
     let mut inertia = Factorisation::new(dim);
-    // So short a step that a potential is rounding beside the inertia.
     let (t, h) = (J::constant(state.t), J::constant(VANISHING * h));
     for_each_chunk(dim, |first| {
         lie::seed(&mut c, first);
@@ -152,6 +205,5 @@ pub(crate) fn is_degenerate<L: DiscreteLagrangian>(
             }
         }
     });
-    inertia.factorise();
-    inertia.is_singular()
+    inertia
 }

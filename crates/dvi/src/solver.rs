@@ -40,14 +40,20 @@ pub trait StepSolver<L: DiscreteLagrangian> {
         false
     }
 
-    /// Renews the matrix at `c`, where it can be.
+    /// Renews the matrix at `c`; false where it stays as it is.
     fn renew<R: Retraction>(
         &mut self,
         _lagrangian: &L,
         _state: &State<L::Group>,
         _h: f64,
         _c: &Algebra<L>,
-    ) {
+    ) -> bool {
+        false
+    }
+
+    /// How many pivots of the matrix have another sign than at $h = 0$, where it is the inertia: an odd number on another branch of solutions.
+    fn turns(&self) -> usize {
+        0
     }
 
     /// The correction $\delta$ that the linearised residual asks for; `c - delta` is the next iterate.

@@ -2,6 +2,8 @@
 
 use lie::{RealGroup, VectorSpace};
 
+use crate::StepError;
+
 /// Time, configuration and left-trivialised momentum: *the* state between steps.
 ///
 /// The pair $(g_k, f_k)$ of the Lagrangian form is a view of it, through the discrete Legendre transforms.
@@ -30,6 +32,14 @@ impl<G: RealGroup> State<G> {
         self.t = state.t;
         self.g.copy_from(&state.g);
         self.mu.copy_from(&state.mu);
+    }
+
+    /// This state after step number `step`, of size `h` from `t`, if every number of it is finite.
+    pub(crate) fn if_finite(self, step: u64, t: f64, h: f64) -> Result<Self, StepError> {
+        let finite = self.g.is_finite() && self.mu.max_magnitude().is_finite();
+        finite
+            .then_some(self)
+            .ok_or(StepError::NotFinite { step, t, h })
     }
 }
 

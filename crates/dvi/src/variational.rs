@@ -7,7 +7,7 @@ use lie::{Cayley, LieGroup, Retraction, VectorSpace};
 
 use crate::balance::Balance;
 use crate::newton::is_degenerate;
-use crate::numbers::{astray, larger, relative};
+use crate::numbers::{larger, relative};
 use crate::solver::{Algebra, Dual, StepSolver};
 use crate::variation::Linearised;
 use crate::warm_start::WarmStart;
@@ -30,8 +30,11 @@ const STANDS: f64 = 0.9;
 const CYCLIC_ITERATIONS: u32 = 3;
 /// A correction of the cyclic coordinates below this share of the displacement is rounding.
 const NOISE: f64 = 1e3 * f64::EPSILON;
-/// How far from its prediction a root may lie, as a share of that.
-/// About a fixed axis there is the branch $\theta = \arcsin h\omega$ and another root, $\pi - \theta$, which is farther.
+/// A residual below this is at a root; it may rise by rounding.
+const AT_ROOT: f64 = 1e-6;
+/// The shortest part of a correction that is tried where the whole makes the residual grow.
+const SHORTEST_CORRECTION: f64 = 1e-2;
+/// How far a root whose matrix has turned an even number of pivots may lie from the one before, continued in proportion to $h$.
 const NEAR: f64 = 0.25;
 /// The shortest part of a step that its solution is followed by.
 const SHORTEST_PART: f64 = 1.0 / 64.0;
@@ -74,7 +77,7 @@ struct Work<L: DiscreteLagrangian, M> {
     warm: WarmStart,
     c: Algebra<L>,
     delta: Algebra<L>,
-    /// Where a root is expected.
+    /// Those of a guess or of a solution.
     coordinates: Vec<f64>,
     /// The solution of a part of the step.
     reached: Algebra<L>,
@@ -113,21 +116,24 @@ impl<L: Inertia> Variational<L, FrozenInertia<L>> {
     }
 }
 
-/// What the last evaluation found.
-struct Solved {
+/// What an iteration has led to.
+struct Ended {
     report: StepReport,
-    converged: bool,
-    /// Whether the first evaluation was finite.
-    started: bool,
+    at: End,
+    /// Pivots whose sign has turned on the way from the inertia.
+    turns: usize,
 }
 
-/// Where an iteration starts.
 #[derive(Clone, Copy, PartialEq)]
-enum Start {
-    /// From the prediction.
-    Guess,
-    /// From no displacement: where the first correction leads is the prediction.
-    Rest,
+enum End {
+    /// The motion's solution.
+    Solved,
+    /// A solution of another branch.
+    AnotherBranch,
+    /// No solution.
+    Nowhere,
+    /// Nothing: the first evaluation was not finite.
+    NotFinite,
 }
 
 impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R> {
@@ -205,7 +211,16 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         if self.normalizes() {
             next.g.normalize();
         }
+        let step = self.steps;
+        let finite = |x: &L::Group| {
+            let (t, h) = (*t, *h);
+            x.is_finite()
+                .then_some(())
+                .ok_or(StepError::NotFinite { step, t, h })
+        };
+        finite(&next.g)?;
         let report = self.solve(&next, *h)?;
+        finite(&self.work(&next.g).balance.f)?;
         self.accept(*h);
         f.clone_from(&self.work(&next.g).balance.f);
         (*t, *g) = (next.t, next.g);
@@ -304,45 +319,43 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
             work.solver.begin(lagrangian, state, h);
             work.c.read(&work.coordinates);
             let goal = (tolerance, floor);
-            let solved = work.iterate::<R>(lagrangian, (state, h), Start::Guess, goal);
-            if solved.converged {
-                return Ok(solved.report);
+            let ended = work.iterate::<R>(lagrangian, (state, h), goal);
+            // An even number may be two bodies past their folds: the guess was, and the determinant does not tell.
+            if ended.at == End::Solved && ended.turns == 0 {
+                return Ok(ended.report);
             }
-            before = solved.report.iterations;
+            before = ended.report.iterations;
             work.forget();
         }
-        let mut solved = work.follow::<R>(lagrangian, (state, h), (tolerance, floor));
-        solved.report.iterations += before;
-        if !solved.converged {
-            work.forget();
-            let degenerate = solved.started && is_degenerate(lagrangian, state, h);
-            return Err(failure((step, t, h), tolerance, &solved, degenerate));
+        let mut ended = work.follow::<R>(lagrangian, (state, h), (tolerance, floor));
+        ended.report.iterations += before;
+        if ended.at == End::Solved {
+            return Ok(ended.report);
         }
-        Ok(solved.report)
+        work.forget();
+        let degenerate = ended.at != End::NotFinite && is_degenerate(lagrangian, state, h);
+        Err(failure((step, t, h), tolerance, &ended, degenerate))
     }
 }
 
 fn failure(
     (step, t, h): (u64, f64, f64),
     tolerance: f64,
-    solved: &Solved,
+    ended: &Ended,
     degenerate: bool,
 ) -> StepError {
     let StepReport {
         iterations,
         residual,
-    } = solved.report;
-    if !solved.started {
-        return StepError::NotFinite { step, t, h };
-    }
-    let hint = if degenerate {
-        Hint::Degenerate
-    } else if is_rounding(residual, tolerance) {
-        Hint::LooserTolerance {
+    } = ended.report;
+    let hint = match ended.at {
+        End::NotFinite => return StepError::NotFinite { step, t, h },
+        _ if degenerate => Hint::Degenerate,
+        End::AnotherBranch => Hint::AnotherBranch { h: h / 4.0 },
+        _ if is_rounding(residual, tolerance) => Hint::LooserTolerance {
             tolerance: 2.0 * residual,
-        }
-    } else {
-        Hint::SmallerStep { h: h / 4.0 }
+        },
+        _ => Hint::SmallerStep { h: h / 4.0 },
     };
     StepError::NotConverged {
         step,
@@ -385,30 +398,35 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         self.solver.forget();
     }
 
-    /// Follows the solution from $h = 0$, where it is no displacement: in one go where the root is near its prediction, and else in
-    /// parts. The balance of a long step has many roots, and this one is the motion's.
+    /// Follows the solution from $h = 0$, where it is no displacement: in one go, or else in parts. The balance of a long step has many
+    /// roots, and this one is the motion's.
     fn follow<R: Retraction>(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
         goal: (f64, f64),
-    ) -> Solved {
+    ) -> Ended {
         let mut whole = self.follow_to::<R>(lagrangian, (state, h), [0.0, 1.0], goal);
-        if whole.converged || !whole.started || is_rounding(whole.report.residual, goal.0) {
+        let missed = match whole.at {
+            End::AnotherBranch => true,
+            End::Nowhere => !is_rounding(whole.report.residual, goal.0),
+            End::Solved | End::NotFinite => false,
+        };
+        if !missed {
             return whole;
         }
         let (mut reached, mut part) = (0.0, 0.5);
         while part >= SHORTEST_PART {
             let next = (reached + part).min(1.0);
-            let mut solved = self.follow_to::<R>(lagrangian, (state, h), [reached, next], goal);
-            whole.report.iterations += solved.report.iterations;
-            if !solved.converged {
+            let mut ended = self.follow_to::<R>(lagrangian, (state, h), [reached, next], goal);
+            whole.report.iterations += ended.report.iterations;
+            if ended.at != End::Solved {
                 part *= 0.5;
                 continue;
             }
             if next == 1.0 {
-                solved.report.iterations = whole.report.iterations;
-                return solved;
+                ended.report.iterations = whole.report.iterations;
+                return ended;
             }
             self.reached.copy_from(&self.c);
             (reached, part) = (next, 2.0 * part);
@@ -423,23 +441,27 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         (state, h): (&State<L::Group>, f64),
         [reached, next]: [f64; 2],
         goal: (f64, f64),
-    ) -> Solved {
-        let start = if reached == 0.0 {
+    ) -> Ended {
+        if reached == 0.0 {
             self.c.set_zero();
-            Start::Rest
         } else {
             self.c.copy_from(&self.reached);
             self.c.scale(next / reached);
-            Start::Guess
-        };
-        self.c.write(&mut self.coordinates);
+        }
         self.solver.forget();
         self.solver.begin(lagrangian, state, next * h);
-        self.iterate::<R>(lagrangian, (state, next * h), start, goal)
+        self.c.write(&mut self.coordinates);
+        let mut ended = self.iterate::<R>(lagrangian, (state, next * h), goal);
+        // Pivots turn in pairs where none of them is a fold; and where two bodies are past theirs.
+        let followed = reached > 0.0 && ended.turns.is_multiple_of(2) && self.is_near(lagrangian);
+        if ended.at == End::Solved && ended.turns > 0 && !followed {
+            ended.at = End::AnotherBranch;
+        }
+        ended
     }
 
-    /// How far the root is from where it was expected, where it is too far to be the motion's.
-    fn astray(&self, lagrangian: &L) -> Option<f64> {
+    /// Whether the root is near where the iteration has started.
+    fn is_near(&self, lagrangian: &L) -> bool {
         let exact = self.solver.exact(lagrangian);
         let (mut apart, mut size) = (0.0, 0.0);
         for (i, expected) in self.coordinates.iter().enumerate() {
@@ -448,24 +470,33 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 size = larger(size, expected.abs());
             }
         }
-        astray(apart, size, NEAR)
+        apart <= NEAR * size
     }
 
-    /// Iterates from the coordinates in `c` until the residual is within the tolerance, or stands below the floor.
+    /// Iterates from the coordinates in `c`, which `coordinates` are too, until the residual is within the tolerance, or stands below the
+    /// floor. With the exact matrix it has to fall, by a part of the correction where not by all: else the iteration leads anywhere.
     fn iterate<R: Retraction>(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
-        start: Start,
         (tolerance, floor): (f64, f64),
-    ) -> Solved {
-        let [mut best, mut last, mut before] = [f64::INFINITY; 3];
+    ) -> Ended {
+        let ended = |at, iterations, residual| Ended {
+            report: StepReport {
+                iterations,
+                residual,
+            },
+            at,
+            turns: 0,
+        };
+        let [mut first, mut best, mut last, mut before] = [f64::INFINITY; 4];
+        let (mut exact, mut part) = (false, 1.0);
         for iterations in 1..=MAX_ITERATIONS {
             self.evaluate::<R>(lagrangian, state, h);
             if iterations == 1 {
                 self.scale = self.momenta(lagrangian, &state.mu);
             }
-            let residual = self.residual(lagrangian);
+            let mut residual = self.residual(lagrangian);
             // Over two iterations: the contraction's eigenvalues are complex, and single ones jump.
             let slow = match before.is_finite() {
                 true => residual > M::SLOW * last && residual > M::SLOW * M::SLOW * before,
@@ -473,54 +504,65 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             };
             let stands = residual < floor && residual > STANDS * last.min(before);
             if residual <= tolerance || stands {
+                if self.solver.is_stale() {
+                    self.solver.renew::<R>(lagrangian, state, h, &self.c);
+                }
                 let more = self.finish_cyclic::<R>(lagrangian, state, h);
+                if self.scale == 0.0 {
+                    // Only the cyclic coordinates have moved, and the others follow.
+                    self.scale = self.momenta(lagrangian, &state.mu);
+                }
                 // What that has moved may be just above the tolerance again: then iterate on.
-                let residual = self.residual(lagrangian);
+                residual = self.residual(lagrangian);
                 if residual <= tolerance || (stands && residual < floor) {
-                    let astray = self.astray(lagrangian);
-                    let report = StepReport {
-                        iterations: iterations + more,
-                        residual: astray.unwrap_or(residual),
-                    };
-                    return Solved {
-                        report,
-                        converged: astray.is_none(),
-                        started: true,
+                    // The iteration contracts: the solution's matrix has the signs of the one that it is found by.
+                    return Ended {
+                        turns: self.solver.turns(),
+                        ..ended(End::Solved, iterations + more, residual)
                     };
                 }
             }
-            if !residual.is_finite() {
-                let report = StepReport {
-                    iterations,
-                    residual: best,
-                };
-                return Solved {
-                    report,
-                    converged: false,
-                    started: iterations > 1,
-                };
+            if iterations == 1 {
+                first = residual;
+            }
+            if !first.is_finite() {
+                return ended(End::NotFinite, iterations, best);
             }
             best = best.min(residual);
-            if self.solver.is_stale() || slow {
-                self.solver.renew::<R>(lagrangian, state, h, &self.c);
+            let falls = residual <= last.max(AT_ROOT);
+            if exact && !falls && part > SHORTEST_CORRECTION {
+                part *= 0.5;
+                self.c.add_scaled(part, &self.delta);
+                continue;
+            }
+            if exact && !falls {
+                return ended(End::Nowhere, iterations, best);
+            }
+            part = 1.0;
+            if self.solver.is_stale() || slow || !residual.is_finite() {
+                // Where the steps before have led astray, the exact matrix is that of the start.
+                let astray = residual.is_nan() || residual > first;
+                if astray {
+                    self.delta.read(&self.coordinates);
+                }
+                let at = if astray { &self.delta } else { &self.c };
+                let renewed = self.solver.renew::<R>(lagrangian, state, h, at);
+                exact |= renewed;
+                if renewed && astray {
+                    core::mem::swap(&mut self.c, &mut self.delta);
+                    [last, before] = [f64::INFINITY; 2];
+                    continue;
+                }
+            }
+            if !residual.is_finite() {
+                return ended(End::Nowhere, iterations, best);
             }
             (last, before) = (residual, last);
             self.solver
                 .solve(lagrangian, &self.balance.residual, &mut self.delta);
             self.c.add_scaled(-1.0, &self.delta);
-            if iterations == 1 && start == Start::Rest {
-                self.c.write(&mut self.coordinates);
-            }
         }
-        let report = StepReport {
-            iterations: MAX_ITERATIONS,
-            residual: best,
-        };
-        Solved {
-            report,
-            converged: false,
-            started: true,
-        }
+        ended(End::Nowhere, MAX_ITERATIONS, best)
     }
 
     /// The size of the momenta in the balance as it is evaluated first: before the step, after it, and what a force adds to either.
@@ -616,11 +658,12 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
     fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
         self.solve(state, h)?;
         let balance = &self.work(&state.g).balance;
-        Ok(State {
+        let ahead = State {
             t: state.t + h,
             g: state.g.compose(&balance.f),
             mu: balance.transported.clone(),
-        })
+        };
+        ahead.if_finite(self.steps, state.t, h)
     }
 }
 

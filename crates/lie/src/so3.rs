@@ -53,12 +53,13 @@ impl<S: Scalar> SO3<S> {
         let (defect, tolerance) = (rotation.orthogonality_error(), S::EPSILON.sqrt());
         rotation.normalize();
         let determinant = matrix.determinant();
-        // By the sum with one: the magnitude of a scalar has no sign.
-        let positive = (determinant + S::one()).magnitude() > 1.0;
+        // The magnitude of a scalar has no sign: it is that with which it adds up.
+        let size = determinant.magnitude();
+        let positive = (determinant + S::from_f64(size)).magnitude() > size;
         let rotates = defect <= tolerance && positive;
         rotates.then_some(rotation).ok_or(NotARotation {
             defect,
-            determinant: (determinant + S::one()).magnitude() - 1.0,
+            determinant: if positive { size } else { -size },
             tolerance,
         })
     }

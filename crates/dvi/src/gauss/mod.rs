@@ -225,8 +225,9 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Integrator fo
     }
 
     fn peek(&mut self, state: &State<C::Group>, h: f64) -> Result<State<C::Group>, StepError> {
+        let step = self.steps;
         let (_, work) = self.solve(state, h)?;
-        Ok(work.ahead((state, h)))
+        work.ahead((state, h)).if_finite(step, state.t, h)
     }
 }
 

@@ -6,7 +6,6 @@ use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
-use crate::numbers::{astray, larger};
 use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
 
@@ -20,8 +19,6 @@ pub(super) struct SweepNewton<C: ContinuousSystem> {
     h: f64,
     /// The iterate.
     pub(super) x: Vec<f64>,
-    /// Where a root is expected: the first iterate.
-    expected: Vec<f64>,
     /// $X - \Phi(X)$, then the correction.
     correction: Vec<f64>,
     sweep: Sweep<C, J>,
@@ -37,7 +34,6 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             matrix: Factorisation::new(dim),
             h: 0.0,
             x: vec![0.0; dim],
-            expected: vec![0.0; dim],
             correction: vec![0.0; dim],
             sweep: Sweep::new(system, tableau, &varied.g),
             unknowns: vec![J::constant(0.0); dim],
@@ -54,32 +50,6 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         self.h = 0.0;
     }
 
-    /// Takes the iterate for where the root is expected.
-    pub(super) fn expect(&mut self) {
-        self.expected.copy_from_slice(&self.x);
-    }
-
-    /// How far the displacements' rates are from the expected ones, where that is more than the share `near` of them: another root's.
-    pub(super) fn astray(&self, h: f64, near: f64) -> Option<f64> {
-        let dim = self.varied.mu.dim();
-        let rates =
-            |x: &[f64]| h.abs() * x.iter().copied().fold(0.0, |max, x| larger(max, x.abs()));
-        let (mut apart, mut size) = (0.0, 0.0);
-        let stages = self
-            .x
-            .chunks_exact(2 * dim)
-            .zip(self.expected.chunks_exact(2 * dim));
-        for (x, expected) in stages {
-            let changes = x[..dim]
-                .iter()
-                .zip(&expected[..dim])
-                .map(|(x, y)| h.abs() * (x - y).abs());
-            apart = changes.fold(apart, larger);
-            size = larger(size, rates(&expected[..dim]));
-        }
-        astray(apart, size, near)
-    }
-
     /// The Newton correction at the iterate, whose image the sweep has found.
     pub(super) fn linearise<S: Batch<Item = f64>>(&mut self, image: &Sweep<C, S>) {
         image.write(&mut self.correction);
@@ -89,7 +59,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         self.solve();
     }
 
-    /// Moves the iterate by a part of the correction.
+    /// Moves the iterate by a multiple of the correction.
     pub(super) fn correct(&mut self, part: f64) {
         for (x, delta) in self.x.iter_mut().zip(&self.correction) {
             *x -= part * delta;

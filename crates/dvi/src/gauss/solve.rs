@@ -25,15 +25,8 @@ const KEEPS_MATRIX: f64 = 0.3;
 const LOOKS_AT_END: u32 = 4;
 /// A change of $\pi_0$ this much larger than that of the rates, both relative, is no echo of it.
 const KNOWN_BETTER: f64 = 0.01;
-/// The shortest part of a correction that is tried.
-const SHORTEST: f64 = 1e-3;
 /// Steps solved by Newton's method before the plain iteration is tried again.
 const LONG_STEPS: u32 = 16;
-/// How far from its guess a root of Newton's may lie, as a share of that: from the steps before, and from the state's own velocity.
-const NEAR: [f64; 2] = [0.25, 0.5];
-/// Halvings of a refused step in the search for one that would do.
-const HALVINGS: i32 = 20;
-
 /// Why a step was not solved.
 pub(super) enum Failure {
     NotFinite,
@@ -54,14 +47,35 @@ enum Ended {
     Solved(StepReport),
     /// Does not contract, or too slowly.
     Slow(StepReport),
+    /// At a solution that is not the motion's.
+    AnotherBranch(StepReport),
 }
 
 impl Ended {
     /// The same, with the iterations of an attempt before it.
     fn after(mut self, iterations: u32) -> Self {
-        let (Self::Solved(report) | Self::Slow(report)) = &mut self;
+        let (Self::Solved(report) | Self::Slow(report) | Self::AnotherBranch(report)) = &mut self;
         report.iterations += iterations;
         self
+    }
+
+    fn report(&self) -> StepReport {
+        let (Self::Solved(report) | Self::Slow(report) | Self::AnotherBranch(report)) = *self;
+        report
+    }
+
+    fn solved(&self) -> Option<StepReport> {
+        matches!(self, Self::Solved(_)).then(|| self.report())
+    }
+
+    /// Of a step of size `h` that was not solved.
+    fn refusal(&self, h: f64) -> Failure {
+        let h = 0.5 * h;
+        let hint = match self {
+            Self::AnotherBranch(_) => Hint::AnotherBranch { h },
+            _ => Hint::SmallerStep { h },
+        };
+        Failure::NotConverged(self.report(), hint)
     }
 }
 
@@ -75,35 +89,26 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         start: Start<C>,
         limits: Limits,
     ) -> Result<StepReport, Failure> {
-        if limits.sweeps_only {
-            return match self.iterate::<R>(method, start, limits.tolerance)? {
-                Ended::Solved(report) => Ok(report),
-                Ended::Slow(report) => Err(Failure::NotConverged(
-                    report,
-                    Hint::SmallerStep { h: 0.5 * start.1 },
-                )),
-            };
-        }
         let tolerance = limits.tolerance;
-        let (report, starts) = match self.attempt::<R>(method, start, tolerance)? {
-            Ended::Solved(report) => return Ok(report),
-            Ended::Slow(report) => (report, self.predictor.is_known()),
-        };
-        self.predictor.forget();
-        self.long_steps = 0;
-        if starts && let Ended::Solved(again) = self.attempt::<R>(method, start, tolerance)? {
-            let iterations = report.iterations + again.iterations;
-            return Ok(StepReport {
-                iterations,
-                ..again
-            });
+        if limits.sweeps_only {
+            let ended = self.iterate::<R>(method, start, tolerance)?;
+            return ended.solved().ok_or_else(|| ended.refusal(start.1));
+        }
+        let mut ended = self.attempt::<R>(method, start, tolerance)?;
+        if ended.solved().is_none() && self.predictor.is_known() {
+            self.predictor.forget();
+            self.long_steps = 0;
+            let before = ended.report().iterations;
+            ended = self.attempt::<R>(method, start, tolerance)?.after(before);
+        }
+        if let Some(report) = ended.solved() {
+            return Ok(report);
         }
         self.long_steps = 0;
-        let h = self.shorter::<R>(method, start, tolerance);
         self.predictor.forget();
         self.update.forget();
         self.drift.fill(0.0);
-        Err(Failure::NotConverged(report, Hint::SmallerStep { h }))
+        Err(ended.refusal(start.1))
     }
 
     /// The plain iteration, and Newton's method where it is slow.
@@ -117,7 +122,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         if self.long_steps == 0 {
             match self.iterate::<R>(method, start, tolerance)? {
                 Ended::Slow(report) => sweeps = report.iterations,
-                solved => return Ok(solved),
+                ended => return Ok(ended),
             }
             self.long_steps = LONG_STEPS;
         }
@@ -210,18 +215,17 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         relative(differences.fold(0.0, larger), size)
     }
 
-    /// Newton's method on the sweep, with halved corrections where they overshoot.
+    /// Newton's method on the sweep.
     fn newton<R: Retraction>(
         &mut self,
         method: Method<C>,
         (state, h): Start<C>,
         tolerance: f64,
     ) -> Result<Ended, Failure> {
-        let near = NEAR[usize::from(!self.predictor.is_known())];
         self.guess::<R>(method, (state, h))?;
         let newton = self.newton.take();
         let mut newton = newton.unwrap_or_else(|| SweepNewton::new(method.0, method.1, &state.g));
-        let ended = self.newton_with::<R>(&mut newton, method.0, (state, h), (near, tolerance));
+        let ended = self.newton_with::<R>(&mut newton, method.0, (state, h), tolerance);
         self.newton = Some(newton);
         Ok(ended)
     }
@@ -231,13 +235,12 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         newton: &mut SweepNewton<C>,
         system: &C,
         (state, h): Start<C>,
-        (near, tolerance): (f64, f64),
+        tolerance: f64,
     ) -> Ended {
         self.sweep.gather(&state.mu, h);
         self.sweep.round(Side::End);
         self.sweep.write(&mut newton.x);
-        newton.expect();
-        let (mut last, mut damping) = (f64::INFINITY, 1.0);
+        let mut last = f64::INFINITY;
         let (mut stale, mut renewed) = (!newton.fits(h), false);
         let (mut report, mut best) = (StepReport::default(), f64::INFINITY);
         for iterations in 1..=MAX_NEWTON {
@@ -252,52 +255,33 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             };
             if is_solved(change, last, tolerance) {
                 // Where the matrix of the steps before has done, the step is as theirs.
-                let turned = |newton: &mut SweepNewton<C>| {
-                    (renewed && newton.has_turned::<R>(system, state, h)).then_some(1.0)
-                };
-                if let Some(residual) = newton.astray(h, near).or_else(|| turned(newton)) {
+                if renewed && newton.has_turned::<R>(system, state, h) {
                     newton.forget();
-                    return Ended::Slow(StepReport { residual, ..report });
+                    return Ended::AnotherBranch(report);
                 }
                 self.sweep.end_to_start::<R>(h, &state.mu, &mut self.start);
                 return Ended::Solved(report);
             }
-            if damping > SHORTEST && (change.is_nan() || change > 2.0 * last) {
-                // Half of the correction back.
-                damping *= 0.5;
-                newton.correct(-damping);
+            // Beyond a change that grows lies any root.
+            if change.is_nan() || change > last {
+                if renewed || iterations == 1 {
+                    break;
+                }
+                // Back to where the matrix of the steps before has led away from.
+                newton.correct(-1.0);
+                (last, stale) = (f64::INFINITY, true);
                 continue;
             }
-            if !change.is_finite() {
-                return Ended::Slow(report);
-            }
-            if stale || damping < 1.0 || change > KEEPS_MATRIX * last {
+            if stale || change > KEEPS_MATRIX * last {
                 newton.renew::<R>(system, state, h);
                 renewed = true;
             }
-            (last, damping, stale) = (change, 1.0, false);
+            (last, stale) = (change, false);
             newton.linearise(&self.sweep);
             newton.correct(1.0);
         }
         newton.forget();
         Ended::Slow(report)
-    }
-
-    /// The longest of the halved steps from this state that is solved.
-    fn shorter<R: Retraction>(
-        &mut self,
-        method: Method<C>,
-        (state, h): Start<C>,
-        tolerance: f64,
-    ) -> f64 {
-        let half = |k| h * 0.5_f64.powi(k);
-        let solved = (1..=HALVINGS).map(half).find(|h| {
-            self.predictor.forget();
-            let ended = self.attempt::<R>(method, (state, *h), tolerance);
-            matches!(ended, Ok(Ended::Solved(_)))
-        });
-        self.long_steps = 0;
-        solved.unwrap_or(half(HALVINGS))
     }
 }
 

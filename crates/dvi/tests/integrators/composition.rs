@@ -101,3 +101,24 @@ fn a_refused_part_undoes_the_parts_before() {
     assert_eq!(state, before);
     integrator.step(&mut state, 1.0).unwrap();
 }
+
+/// Its parts count their steps, and a look ahead is none.
+#[test]
+fn a_peek_is_not_counted() {
+    let integrator = || Composition::<_, 4>::new(Top.discretise::<LeftPoint>());
+    let (mut plain, mut watched) = (integrator(), integrator());
+    let (mut a, mut b) = (top(), top());
+    for _ in 0..40 {
+        plain.step(&mut a, 0.05).unwrap();
+        let ahead = watched.peek(&b, 0.02).unwrap();
+        assert!(ahead.t > b.t);
+        watched.step(&mut b, 0.05).unwrap();
+    }
+    // By what the tolerance of the parts leaves.
+    assert!(common::distance(&a, &b) < 1e-11);
+    let refused = watched.step(&mut b, f64::NAN).unwrap_err();
+    assert!(
+        matches!(refused, StepError::InvalidStep { step: 40, .. }),
+        "{refused}"
+    );
+}

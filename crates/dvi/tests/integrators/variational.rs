@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use dvi::{
-    DiscreteLagrangian, Hint, Integrator, Lagrangian, State, StepError, Variational,
+    DiscreteLagrangian, Gauss, Hint, Integrator, Lagrangian, State, StepError, Variational,
     legendre_minus, legendre_plus,
 };
 use lie::{
@@ -316,6 +316,20 @@ fn no_number_that_is_not_finite_leaves_as_ok() {
         .step(&mut state, 0.01)
         .unwrap_err();
     assert!(matches!(error, StepError::NotFinite { .. }), "{error}");
+    let error = Variational::new(OffCentre).peek(&state, 0.01).unwrap_err();
+    assert!(matches!(error, StepError::NotFinite { .. }), "{error}");
+    let gauss = Gauss::<_, 2>::new(OffCentre.hamiltonian()).peek(&state, 0.01);
+    assert!(matches!(gauss, Err(StepError::NotFinite { .. })));
+    let mut pair = Variational::new(OffCentre)
+        .pair(&off_centre(), 0.01)
+        .unwrap();
+    pair.g.1.0[0] = f64::NAN;
+    let before = format!("{pair:?}");
+    let error = Variational::new(OffCentre)
+        .step_pair(&mut pair)
+        .unwrap_err();
+    assert!(matches!(error, StepError::NotFinite { .. }), "{error}");
+    assert_eq!(format!("{pair:?}"), before);
     let mut state = State {
         t: f64::NAN,
         ..off_centre()
@@ -378,4 +392,46 @@ fn the_retraction_does_not_enter_the_solution() {
         .vec3()
         .norm();
     assert!(apart < 1e-11, "{apart:e}");
+}
+
+/// A body that turns about a fixed axis; its balance is $\sin\theta = h \omega$.
+fn spin(omega: f64) -> State<Power<SO3>> {
+    State {
+        t: 0.0,
+        g: Power::new(vec![SO3::identity()]),
+        mu: Power::new(vec![Cotangent([0.0, 0.0, INERTIA[2] * omega])]),
+    }
+}
+
+struct Free;
+
+impl DiscreteLagrangian for Free {
+    type Group = Power<SO3>;
+
+    fn value<S: Scalar>(&self, _: &Power<SO3<S>>, f: &Power<SO3<S>>, h: S) -> S {
+        let free = |f| top(&SO3::identity(), f, h);
+        f.iter().fold(S::zero(), |sum, f| sum + free(f))
+    }
+}
+
+/// What a loose tolerance takes for rounding must not be a root, nor end the search for one.
+#[test]
+fn a_loose_tolerance_finds_the_root_that_the_default_finds() {
+    for (h, tolerance) in [(0.9, 1e-13), (0.9, 5e-4), (-0.9, 1e-13)] {
+        let mut state = spin(1.0);
+        let mut integrator = Variational::new(Free).with_tolerance(tolerance);
+        integrator.step(&mut state, h).unwrap();
+        let turn = state.g[0].log().unwrap()[2];
+        // The slope of the sine there is 0.44.
+        assert!((turn - h.asin()).abs() < 3.0 * tolerance + 1e-12, "{turn}");
+    }
+}
+
+#[test]
+fn beyond_the_fold_there_is_no_step() {
+    let before = spin(1.0);
+    let mut state = before.clone();
+    let error = Variational::new(Free).step(&mut state, 1.01).unwrap_err();
+    assert!(matches!(error, StepError::NotConverged { .. }), "{error}");
+    assert_eq!(state, before);
 }

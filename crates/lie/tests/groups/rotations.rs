@@ -138,6 +138,7 @@ fn rotations_stay_orthogonal() {
 fn a_matrix_that_does_not_rotate_is_refused() {
     let refused = |m: Mat3| SO3::from_matrix(m).unwrap_err();
     assert_eq!(refused(-Mat3::identity()).determinant, -1.0);
+    assert_eq!(refused(Mat3::identity() * -1.5).determinant, -3.375);
     assert!(refused(Mat3::identity() * 1.01).defect > 1e-2);
     assert!(refused(Mat3([[f64::NAN; 3]; 3])).defect.is_nan());
     assert!(SO3::from_matrix(*SO3::exp(&turn(2.0)).matrix()).is_ok());
