@@ -25,6 +25,10 @@ const KEEPS_MATRIX: f64 = 0.3;
 const LOOKS_AT_END: u32 = 4;
 /// A change of $\pi_0$ this much larger than that of the rates, both relative, is no echo of it.
 const KNOWN_BETTER: f64 = 0.01;
+/// A change below this is at a root; it may rise as an approximate matrix lets it.
+const AT_ROOT: f64 = 1e-3;
+/// The shortest part of a correction that is tried where the whole makes the change grow.
+const SHORTEST_CORRECTION: f64 = 1e-2;
 /// Steps solved by Newton's method before the plain iteration is tried again.
 const LONG_STEPS: u32 = 16;
 /// Why a step was not solved.
@@ -240,7 +244,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         self.sweep.gather(&state.mu, h);
         self.sweep.round(Side::End);
         self.sweep.write(&mut newton.x);
-        let mut last = f64::INFINITY;
+        let (mut last, mut part) = (f64::INFINITY, 1.0);
         let (mut stale, mut renewed) = (!newton.fits(h), false);
         let (mut report, mut best) = (StepReport::default(), f64::INFINITY);
         for iterations in 1..=MAX_NEWTON {
@@ -262,21 +266,26 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
                 self.sweep.end_to_start::<R>(h, &state.mu, &mut self.start);
                 return Ended::Solved(report);
             }
-            // Beyond a change that grows lies any root.
-            if change.is_nan() || change > last {
-                if renewed || iterations == 1 {
+            // Beyond a change that grows lies any root: so it has to fall, by a part of the correction where not by all.
+            if change.is_nan() || change > last.max(AT_ROOT) {
+                if iterations == 1 || (renewed && part <= SHORTEST_CORRECTION) {
                     break;
                 }
-                // Back to where the matrix of the steps before has led away from.
-                newton.correct(-1.0);
-                (last, stale) = (f64::INFINITY, true);
+                if renewed {
+                    part *= 0.5;
+                    newton.correct(-part);
+                } else {
+                    // Back to where the matrix of the steps before has led away from.
+                    newton.correct(-1.0);
+                    (last, stale) = (f64::INFINITY, true);
+                }
                 continue;
             }
-            if stale || change > KEEPS_MATRIX * last {
+            if stale || part < 1.0 || change > KEEPS_MATRIX * last {
                 newton.renew::<R>(system, state, h);
                 renewed = true;
             }
-            (last, stale) = (change, false);
+            (last, part, stale) = (change, 1.0, false);
             newton.linearise(&self.sweep);
             newton.correct(1.0);
         }
