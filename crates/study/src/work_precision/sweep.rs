@@ -66,8 +66,9 @@ impl Curve {
             Control::Accuracy => format!("accuracy {value:e}"),
         };
         let settings = if count == 1 { "setting" } else { "settings" };
-        // What follows is advice, to take a shorter step.
-        let cause = cause.split("; ").next().unwrap_or(cause);
+        // What follows is advice.
+        let cause = cause.split("try a").next().unwrap_or(cause);
+        let cause = cause.trim_end_matches([' ', ';', ':']);
         Some(format!("{name}, {count} {settings} to {setting}: {cause}"))
     }
 
