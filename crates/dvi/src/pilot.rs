@@ -12,8 +12,10 @@ const SAMPLES: usize = 8;
 const LONGEST: f64 = 2000.0;
 /// Steps of the pilot's finest run, at most.
 const FINEST: usize = 400_000;
-/// The part of the accuracy that the reference's own error may take, that a run's may, and that an unfinished iteration's may.
-const PARTS: [f64; 3] = [0.1, 0.4, 1e-3];
+/// The part of the accuracy that the reference's own error may take, as that of unfinished iterations, and that a run's may.
+const PARTS: [f64; 2] = [0.1, 0.4];
+/// What stages are solved to, in parts of the accuracy: what a step leaves unfinished grows with the motion, and is tried too.
+const TOLERANCES: [f64; 4] = [1e-3, 1e-5, 1e-7, 0.0];
 /// The numbers of stages that are tried: few cost less where the steps are short anyway.
 const STAGES: [usize; 3] = [4, 6, 8];
 /// Trials between a step that is too long and one that is not.
@@ -102,7 +104,8 @@ impl Pilot {
     /// Stages, step and tolerance with which the motion from `start` is accurate for `duration` seconds.
     ///
     /// Runs of eight stages with halved steps first agree with each other; then runs of fewer stages or longer steps are compared
-    /// with the finest, and the one with the fewest evaluations is taken. All of it costs about ten such runs.
+    /// with the finest, and the one with the fewest evaluations is taken; their stages are solved no further than that comparison can
+    /// tell. All of it costs about ten such runs.
     ///
     /// # Errors
     /// [`PilotError`].
@@ -123,7 +126,9 @@ impl Pilot {
         };
         let (coarse, horizon) = trials.first(duration)?;
         let (fine, reference) = trials.reference(coarse, horizon)?;
-        let tried = STAGES.map(|stages| trials.longest(stages, (fine, horizon), &reference));
+        let tolerance = trials.tolerance((fine, horizon), &reference);
+        let tried =
+            STAGES.map(|stages| trials.longest(stages, (fine, horizon), tolerance, &reference));
         let cheapest = tried
             .into_iter()
             .flatten()
@@ -132,13 +137,14 @@ impl Pilot {
         let chosen = cheapest.unwrap_or(Trial {
             stages: 8,
             steps: fine,
+            tolerance: 0.0,
             error: PARTS[0] * accuracy,
             evaluations: 0,
         });
         Ok(Self {
             stages: chosen.stages,
             h: horizon / (SAMPLES * chosen.steps) as f64,
-            tolerance: PARTS[2] * accuracy,
+            tolerance: chosen.tolerance,
             estimate: chosen.error,
             horizon,
         })
@@ -172,6 +178,7 @@ struct Trial {
     stages: usize,
     /// Between two samples.
     steps: usize,
+    tolerance: f64,
     error: f64,
     evaluations: u64,
 }
@@ -230,15 +237,26 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
         })
     }
 
+    /// The loosest tolerance that leaves the reference's run as it is.
+    fn tolerance(&self, (fine, horizon): (usize, f64), reference: &[State<C::Group>]) -> f64 {
+        let does = |tolerance: &f64| {
+            let run = self.samples::<8>(fine, horizon / SAMPLES as f64, *tolerance);
+            run.is_ok_and(|(run, _)| difference(&run, reference) <= PARTS[0] * self.accuracy)
+        };
+        let tolerances = TOLERANCES.map(|part| part * self.accuracy);
+        tolerances.into_iter().find(does).unwrap_or(0.0)
+    }
+
     /// The longest steps of so many stages that are accurate enough, by bisection between those of the reference and longer ones.
     fn longest(
         &self,
         stages: usize,
         (fine, horizon): (usize, f64),
+        tolerance: f64,
         reference: &[State<C::Group>],
     ) -> Option<Trial> {
         let attempt = |steps: usize| {
-            let (interval, tolerance) = (horizon / SAMPLES as f64, PARTS[2] * self.accuracy);
+            let interval = horizon / SAMPLES as f64;
             let run = match stages {
                 4 => self.samples::<4>(steps, interval, tolerance),
                 6 => self.samples::<6>(steps, interval, tolerance),
@@ -251,6 +269,7 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
             enough.then_some(Trial {
                 stages,
                 steps,
+                tolerance,
                 error,
                 evaluations,
             })

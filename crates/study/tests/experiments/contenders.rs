@@ -106,6 +106,22 @@ fn the_yardstick_is_accurate() {
     }
 }
 
+/// Over 100 s a difference grows a millionfold, and what a step leaves unsolved with it.
+#[test]
+fn a_pilot_is_as_accurate_as_asked_where_errors_grow() {
+    let problem = paper(100.0);
+    let exact = Reference::new(&problem).unwrap();
+    for accuracy in [1e-3, 1e-4, 1e-6] {
+        let states = named("pilot").sample(&problem, Setting::Accuracy(accuracy), SAMPLES);
+        let errors = Errors::new(&problem.model, &states.unwrap(), &exact.states).unwrap();
+        assert!(errors.attitude < accuracy, "{accuracy:e}: {errors:?}");
+        assert!(
+            errors.attitude > 1e-3 * accuracy,
+            "{accuracy:e}: {errors:?}"
+        );
+    }
+}
+
 #[test]
 fn samples_are_those_of_the_run() {
     let problem = paper(1.0);
