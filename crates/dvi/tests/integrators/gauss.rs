@@ -203,10 +203,10 @@ fn a_refused_step_changes_nothing_and_names_shorter_ones_until_one_would_do() {
     let before = state.clone();
     let error = integrator.step(&mut state, 50.0).unwrap_err();
     let shorter = |error: &StepError| match error {
-        StepError::NotConverged { hint, .. } => match hint {
-            Hint::SmallerStep { h } | Hint::AnotherBranch { h } => *h,
-            _ => panic!("{error}"),
-        },
+        StepError::NotConverged {
+            hint: Hint::SmallerStep { h } | Hint::AnotherBranch { h },
+            ..
+        } => *h,
         _ => panic!("{error}"),
     };
     assert_eq!(state, before);

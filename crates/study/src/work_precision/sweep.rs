@@ -67,8 +67,9 @@ impl Curve {
         };
         let settings = if count == 1 { "setting" } else { "settings" };
         // What follows is advice.
-        let cause = cause.split("try a").next().unwrap_or(cause);
-        let cause = cause.trim_end_matches([' ', ';', ':']);
+        let advice = ["; try", ": try", "; check"].iter();
+        let end = advice.filter_map(|advice| cause.find(advice)).min();
+        let cause = &cause[..end.unwrap_or(cause.len())];
         Some(format!("{name}, {count} {settings} to {setting}: {cause}"))
     }
 
