@@ -31,6 +31,7 @@ const AT_ROOT: f64 = 1e-3;
 const SHORTEST_CORRECTION: f64 = 1e-2;
 /// Steps solved by Newton's method before the plain iteration is tried again.
 const LONG_STEPS: u32 = 16;
+
 /// Why a step was not solved.
 pub(super) enum Failure {
     NotFinite,

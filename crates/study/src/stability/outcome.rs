@@ -127,13 +127,11 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Whether its time was over before its turn or its end, `until`.
+    /// Whether its time was over before its turn or its end, `until`, s.
     pub fn had_no_time(&self, until: f64) -> bool {
         self.class == Class::NotRun && self.t < until
     }
-}
 
-impl Outcome {
     /// A run that was not begun.
     pub(super) const NOT_RUN: Self = Self {
         class: Class::NotRun,

@@ -217,14 +217,18 @@ mod tests {
 
     use super::*;
 
-    #[test]
-    fn short_steps_that_had_no_time_hide_no_wall() {
+    fn example() -> Problem {
         let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
-        let problem = Problem {
+        Problem {
             model: scene.model().unwrap(),
             start: scene.initial_state().unwrap(),
             until: 1.0,
-        };
+        }
+    }
+
+    #[test]
+    fn short_steps_that_had_no_time_hide_no_wall() {
+        let problem = example();
         let of = |class| Outcome {
             class,
             ..Outcome::NOT_RUN
@@ -250,12 +254,7 @@ mod tests {
 
     #[test]
     fn continuation_finds_the_solution_of_a_step_that_has_one() {
-        let scene = Scene::parse(scene::EXAMPLE, "example.toml").unwrap();
-        let problem = Problem {
-            model: scene.model().unwrap(),
-            start: scene.initial_state().unwrap(),
-            until: 1.0,
-        };
+        let problem = example();
         // As if a solver had refused it.
         let refused_at = Some(problem.start.clone());
         let cell = Outcome {

@@ -57,7 +57,7 @@ pub fn cheapest<'a>(curves: impl IntoIterator<Item = &'a Curve>, error: f64) -> 
     choices.min_by_key(Choice::time)
 }
 
-/// The cheapest ways to ever smaller errors, four to a decade: the least time and the attitude error at it.
+/// The cheapest ways to ever smaller attitude errors, four to a decade, as far as there are any.
 pub(super) fn frontier(curves: &[Curve]) -> Vec<Choice> {
     let errors = (0..4 * DECADES).map(|k| 10_f64.powf(-0.25 * f64::from(k)));
     let mut choices: Vec<_> = errors.map_while(|error| cheapest(curves, error)).collect();

@@ -1,7 +1,7 @@
 //! What the baselines declare of themselves, measured on the paper's scene; names.
 
 use dvi::{Integrator, laws};
-use study::contender::{Contender, Control, Failure, Setting, UnknownContender};
+use study::contender::{Contender, Control, Failure, Problem, Setting, UnknownContender};
 use study::work_precision::{Errors, Reference, SAMPLES};
 
 use crate::common::paper;
@@ -81,6 +81,21 @@ fn a_setting_is_for_its_own_control() {
     }
 }
 
+/// The largest attitude error is below `bound`, rad, and no smaller than a thousandth of what is asked for: the setting is heeded.
+#[track_caller]
+fn error_is_within(
+    name: &str,
+    setting: Setting,
+    (problem, exact): (&Problem, &Reference),
+    bound: f64,
+) {
+    let states = named(name).sample(problem, setting, SAMPLES).unwrap();
+    let errors = Errors::new(&problem.model, &states, &exact.states).unwrap();
+    let least = 1e-3 * setting.value(problem.until);
+    assert!(errors.attitude < bound, "{name}, {setting}: {errors:?}");
+    assert!(errors.attitude > least, "{name}, {setting}: {errors:?}");
+}
+
 /// Against the pair of a library, in charts: what all ratios of time are measured by goes where the motion goes, and no further from it
 /// than its tolerance says.
 #[test]
@@ -93,16 +108,8 @@ fn the_yardstick_is_accurate() {
         ("dp853", 1e-12),
         ("dp54", 1e-9),
     ] {
-        let states = named(name).sample(&problem, Setting::Tolerance(tolerance), SAMPLES);
-        let errors = Errors::new(&problem.model, &states.unwrap(), &exact.states).unwrap();
-        assert!(
-            errors.attitude < 100.0 * tolerance,
-            "{name} {tolerance:e}: {errors:?}"
-        );
-        assert!(
-            errors.attitude > 1e-3 * tolerance,
-            "{name} {tolerance:e}: {errors:?}"
-        );
+        let setting = Setting::Tolerance(tolerance);
+        error_is_within(name, setting, (&problem, &exact), 100.0 * tolerance);
     }
 }
 
@@ -112,13 +119,8 @@ fn a_pilot_is_as_accurate_as_asked_where_errors_grow() {
     let problem = paper(100.0);
     let exact = Reference::new(&problem).unwrap();
     for accuracy in [1e-3, 1e-4, 1e-6] {
-        let states = named("pilot").sample(&problem, Setting::Accuracy(accuracy), SAMPLES);
-        let errors = Errors::new(&problem.model, &states.unwrap(), &exact.states).unwrap();
-        assert!(errors.attitude < accuracy, "{accuracy:e}: {errors:?}");
-        assert!(
-            errors.attitude > 1e-3 * accuracy,
-            "{accuracy:e}: {errors:?}"
-        );
+        let setting = Setting::Accuracy(accuracy);
+        error_is_within("pilot", setting, (&problem, &exact), accuracy);
     }
 }
 
