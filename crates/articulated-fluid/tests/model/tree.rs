@@ -202,7 +202,8 @@ proptest! {
 
     #[test]
     fn the_laws_hold(sample in small()) {
-        const H: f64 = 0.02;
+        // Well within the branch of the step's equation: of long levers and strong added mass it may end at 0.02 s.
+        const H: f64 = 0.005;
         let (model, states) = (&sample.model, [sample.state()]);
         laws::check(model, &states, H).unwrap_or_else(|e| panic!("{e}"));
         laws::check_consistency(model, model, &states).unwrap_or_else(|e| panic!("{e}"));
