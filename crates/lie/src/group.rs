@@ -277,20 +277,19 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         *pi = R::d_left_dual::<Self>(c, mu);
     }
 
-    /// Hamilton's equations in the chart, with $f = \tau(c)$, the velocity $\xi$ and the force $\tau$:
+    /// Hamilton's equations in the chart, with the velocity $\xi$ and the force $\tau$:
     /// $\dot c = \mathrm d\tau_c^{-1} \xi$,
-    /// $\dot\pi = (\mathrm d\tau_c)^\ast \tau - \partial_c \langle \pi, \mathrm d\tau_c^{-1} \xi\rangle$; and $\mathrm{Ad}^\ast\_{f^{-1}} \tau$.
+    /// $\dot\pi = (\mathrm d\tau_c)^\ast \tau - \partial_c \langle \pi, \mathrm d\tau_c^{-1} \xi\rangle$.
     #[inline(always)]
     fn chart_rates_into<R: Retraction>(
-        (c, pi, f): (&Self::Algebra, &Self::Dual, &Self),
+        (c, pi): (&Self::Algebra, &Self::Dual),
         (xi, tau): (&Self::Algebra, &Self::Dual),
-        (c_dot, pi_dot, force): (&mut Self::Algebra, &mut Self::Dual, &mut Self::Dual),
+        (c_dot, pi_dot): (&mut Self::Algebra, &mut Self::Dual),
     ) {
         *c_dot = R::d_left_inv::<Self>(c, xi);
         *pi_dot = R::d_left_dual::<Self>(c, tau);
         let gradient = R::d_left_inv_gradient::<Self>(c, pi, xi);
         pi_dot.add_scaled(-Self::Scalar::one(), &gradient);
-        f.inverse_coadjoint_into(tau, force);
     }
 
     /// The first of [these](Self::chart_rates_into) alone: $\dot c = \mathrm d\tau_c^{-1} \xi$.

@@ -288,14 +288,14 @@ macro_rules! tuple {
             }
             #[inline(always)]
             fn chart_rates_into<R_: Retraction>(
-                (c, pi, f): (&Self::Algebra, &Self::Dual, &Self),
+                (c, pi): (&Self::Algebra, &Self::Dual),
                 (xi, tau): (&Self::Algebra, &Self::Dual),
-                (c_dot, pi_dot, force): (&mut Self::Algebra, &mut Self::Dual, &mut Self::Dual),
+                (c_dot, pi_dot): (&mut Self::Algebra, &mut Self::Dual),
             ) {
                 $($G::chart_rates_into::<R_>(
-                    (&c.$i, &pi.$i, &f.$i),
+                    (&c.$i, &pi.$i),
                     (&xi.$i, &tau.$i),
-                    (&mut c_dot.$i, &mut pi_dot.$i, &mut force.$i),
+                    (&mut c_dot.$i, &mut pi_dot.$i),
                 );)+
             }
             #[inline(always)]
@@ -595,13 +595,13 @@ macro_rules! repeated {
             }
             #[inline(always)]
             fn chart_rates_into<R_: Retraction>(
-                (c, pi, f): (&Self::Algebra, &Self::Dual, &Self),
+                (c, pi): (&Self::Algebra, &Self::Dual),
                 (xi, tau): (&Self::Algebra, &Self::Dual),
-                (c_dot, pi_dot, force): (&mut Self::Algebra, &mut Self::Dual, &mut Self::Dual),
+                (c_dot, pi_dot): (&mut Self::Algebra, &mut Self::Dual),
             ) {
                 for i in 0..c.len() {
-                    let out = (&mut c_dot[i], &mut pi_dot[i], &mut force[i]);
-                    $G::chart_rates_into::<R_>((&c[i], &pi[i], &f[i]), (&xi[i], &tau[i]), out);
+                    let out = (&mut c_dot[i], &mut pi_dot[i]);
+                    $G::chart_rates_into::<R_>((&c[i], &pi[i]), (&xi[i], &tau[i]), out);
                 }
             }
             #[inline(always)]

@@ -53,15 +53,17 @@ impl<G: RealGroup, S: Scalar> Block<G, S> {
         }
     }
 
-    /// $\dot c$, $\dot\pi$ and the force from the velocity and the force of the system.
+    /// $\dot c$ and $\dot\pi$ from the velocity and the force of the system.
     #[inline(always)]
     fn rates<R: Retraction>(&mut self) {
-        let rates = (&mut self.c_dot, &mut self.pi_dot, &mut self.force);
-        Over::<G, S>::chart_rates_into::<R>(
-            (&self.c, &self.pi, &self.f),
-            (&self.xi, &self.tau),
-            rates,
-        );
+        let rates = (&mut self.c_dot, &mut self.pi_dot);
+        Over::<G, S>::chart_rates_into::<R>((&self.c, &self.pi), (&self.xi, &self.tau), rates);
+    }
+
+    /// The force in the frame of the step's start.
+    #[inline(always)]
+    fn transport_force(&mut self) {
+        self.f.inverse_coadjoint_into(&self.tau, &mut self.force);
     }
 }
 
@@ -398,7 +400,8 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     #[inline(always)]
     fn find_momentum(&mut self, h: S::Item, mu: &DualOver<C::Group, S::Item>) {
         let (weights, end) = (&self.coefficients.weights, &mut self.end);
-        for (k, block) in self.blocks.iter().enumerate() {
+        for (k, block) in self.blocks.iter_mut().enumerate() {
+            block.transport_force();
             block.force.write(self.force.block_mut(k));
         }
         weights.combine((&mut self.given, &mut self.rates), h, &self.force);
@@ -477,7 +480,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         block.c.read(self.c.block(k));
         block.tau.read(self.tau.block(k));
         R::retract_into::<Over<C::Group, S>>(&block.c, &mut block.f);
-        block.f.inverse_coadjoint_into(&block.tau, &mut block.force);
+        block.transport_force();
         block.force.write(self.force.block_mut(k));
     }
 

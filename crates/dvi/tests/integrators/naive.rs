@@ -55,9 +55,7 @@ impl Integrator for Naive {
                 let (mut xi, mut tau) = (Tangent::zero(), Cotangent::zero());
                 let g = state.g.compose(&f);
                 system.velocity_and_force::<f64>(0.0, &g, &mu, &mut workspace, &mut xi, &mut tau);
-                let mut force = Cotangent::zero();
-                let out = (c_dot, pi_dot, &mut force);
-                SO3::chart_rates_into::<Cayley>((&c, &pi, &f), (&xi, &tau), out);
+                SO3::chart_rates_into::<Cayley>((&c, &pi), (&xi, &tau), (c_dot, pi_dot));
             }
         }
         let (c, pi) = sums(&rates, [0.5, 0.5], h, &state.mu);

@@ -420,15 +420,14 @@ impl<S: Scalar> LieGroup for Slow<S> {
         };
     }
     fn chart_rates_into<R: Retraction>(
-        (c, pi, f): (&Twist<S>, &Wrench<S>, &Self),
+        (c, pi): (&Twist<S>, &Wrench<S>),
         (xi, tau): (&Twist<S>, &Wrench<S>),
-        (c_dot, pi_dot, force): (&mut Twist<S>, &mut Wrench<S>, &mut Wrench<S>),
+        (c_dot, pi_dot): (&mut Twist<S>, &mut Wrench<S>),
     ) {
         *c_dot = R::d_left_inv::<Self>(c, xi);
         *pi_dot = R::d_left_dual::<Self>(c, tau);
         let sign = S::from_f64(if mistake() == CHART_RATES { 1.0 } else { -1.0 });
         pi_dot.add_scaled(sign, &R::d_left_inv_gradient::<Self>(c, pi, xi));
-        *force = f.inverse().coadjoint(tau);
     }
     fn sqrt(&self) -> Self {
         Self(match mistake() {
