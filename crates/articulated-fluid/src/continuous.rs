@@ -108,8 +108,7 @@ impl<M: Mass> ContinuousSystem for ArticulatedBody<M> {
         xi: &mut AlgebraOver<Configuration, S>,
         tau: &mut DualOver<Configuration, S>,
     ) {
-        elimination.factorise(self, (r0, r));
-        elimination.begin(self, r0, mu);
+        elimination.factorise_and_begin(self, (r0, r), mu);
         elimination.finish_with_forces(self, r0, xi, tau);
         if let Some(weight) = &self.weight {
             tau.1 = weight.force().into();

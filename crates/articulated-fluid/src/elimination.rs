@@ -156,18 +156,27 @@ impl<S: Scalar> Elimination<S> {
     #[inline(always)]
     pub(crate) fn factorise<M: Mass>(&mut self, tree: &ArticulatedBody<M>, r: Attitudes<S>) {
         for i in (1..tree.nodes.len()).rev() {
-            let node = &tree.nodes[i];
-            let (before, after) = self.links.split_at_mut(i);
-            let (parent, link) = (&mut before[node.parent], &mut after[0]);
-            if node.is_last_sibling {
-                parent.reset(&tree.nodes[node.parent], &tree.masses[node.parent]);
-            }
-            if !node.is_leaf {
-                link.eliminate();
-            }
-            link.c = of(r, node.parent).matrix().transpose() * *of(r, i).matrix();
-            parent.carry_mass(link, node.lever.lift());
+            self.factorise_link(tree, i, r);
         }
+        self.factorise_base(tree);
+    }
+
+    #[inline(always)]
+    fn factorise_link<M: Mass>(&mut self, tree: &ArticulatedBody<M>, i: usize, r: Attitudes<S>) {
+        let node = &tree.nodes[i];
+        let (parent, link) = self.joint(i, node.parent);
+        if node.is_last_sibling {
+            parent.reset(&tree.nodes[node.parent], &tree.masses[node.parent]);
+        }
+        if !node.is_leaf {
+            link.eliminate();
+        }
+        link.c = of(r, node.parent).matrix().transpose() * *of(r, i).matrix();
+        parent.carry_mass(link, node.lever.lift());
+    }
+
+    #[inline(always)]
+    fn factorise_base<M: Mass>(&mut self, tree: &ArticulatedBody<M>) {
         let base = &mut self.links[0];
         if !tree.nodes[0].is_leaf {
             base.eliminate();
@@ -181,23 +190,61 @@ impl<S: Scalar> Elimination<S> {
         &mut self,
         tree: &ArticulatedBody<M>,
         r0: &SO3<S>,
-        (p0, px, p): &Momentum<S>,
+        mu: &Momentum<S>,
     ) {
+        self.read_momenta(mu);
+        for i in (1..tree.nodes.len()).rev() {
+            self.eliminate_momentum(tree, i);
+        }
+        self.begin_base(r0, mu);
+    }
+
+    #[inline(always)]
+    fn read_momenta(&mut self, (p0, _, p): &Momentum<S>) {
         for (i, link) in self.links.iter_mut().enumerate() {
             link.force = Vec3::zero();
             link.w = of((p0, p), i).vec3();
         }
-        for i in (1..tree.nodes.len()).rev() {
-            let node = &tree.nodes[i];
-            let (before, after) = self.links.split_at_mut(i);
-            let (parent, link) = (&mut before[node.parent], &mut after[0]);
-            link.eliminate_force();
-            parent.carry_force(link, node.lever.lift());
-        }
+    }
+
+    #[inline(always)]
+    fn eliminate_momentum<M: Mass>(&mut self, tree: &ArticulatedBody<M>, i: usize) {
+        let node = &tree.nodes[i];
+        let (parent, link) = self.joint(i, node.parent);
+        link.eliminate_force();
+        parent.carry_force(link, node.lever.lift());
+    }
+
+    #[inline(always)]
+    fn begin_base(&mut self, r0: &SO3<S>, mu: &Momentum<S>) {
         let base = &mut self.links[0];
         base.eliminate_force();
-        let v = self.base.solve(r0.inverse_rotate(px.vec3()) - base.force);
+        let v = self.base.solve(r0.inverse_rotate(mu.1.vec3()) - base.force);
         base.advance(v, Vec3::zero());
+    }
+
+    /// [`factorise`](Self::factorise) and [`begin`](Self::begin) in one pass, the momenta of a body while its factors are at hand.
+    #[inline(always)]
+    pub(crate) fn factorise_and_begin<M: Mass>(
+        &mut self,
+        tree: &ArticulatedBody<M>,
+        r: Attitudes<S>,
+        mu: &Momentum<S>,
+    ) {
+        self.read_momenta(mu);
+        for i in (1..tree.nodes.len()).rev() {
+            self.factorise_link(tree, i, r);
+            self.eliminate_momentum(tree, i);
+        }
+        self.factorise_base(tree);
+        self.begin_base(r.0, mu);
+    }
+
+    /// The links of body `i` and of its `parent`.
+    #[inline(always)]
+    fn joint(&mut self, i: usize, parent: usize) -> (&mut Link<S>, &mut Link<S>) {
+        let (before, after) = self.links.split_at_mut(i);
+        (&mut before[parent], &mut after[0])
     }
 
     /// The velocity of body `i`'s joint, from its parent's velocity; then its own.
