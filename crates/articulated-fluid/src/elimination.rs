@@ -251,8 +251,7 @@ impl<S: Scalar> Elimination<S> {
     #[inline(always)]
     fn advance<M: Mass>(&mut self, tree: &ArticulatedBody<M>, i: usize) -> Vec3<S> {
         let node = &tree.nodes[i];
-        let (before, after) = self.links.split_at_mut(i);
-        let (parent, link) = (&before[node.parent], &mut after[0]);
+        let (parent, link) = self.joint(i, node.parent);
         let u = parent.joint_velocity(link, node.at_parent.lift());
         link.advance(u, node.at_self.lift());
         u

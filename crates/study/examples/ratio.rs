@@ -8,11 +8,13 @@
 
 use std::time::{Duration, Instant};
 
-use articulated_fluid::{ArticulatedBody, Configuration, Scene};
+use articulated_fluid::{Configuration, Scene};
 use dvi::{Gauss, Integrator, State};
 use study::baseline::Tolerance;
+use study::contender::{Contender, Problem, Setting};
+use study::dop853;
+use study::methods::Method;
 use study::work_precision::Errors;
-use study::{dop853, raw};
 
 /// Errors that are asked for, rad.
 const ASKED: [f64; 7] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12];
@@ -35,11 +37,7 @@ const REFERENCE_RATE: f64 = 10.0;
 
 type Error = Box<dyn std::error::Error>;
 
-struct Problem {
-    model: ArticulatedBody,
-    start: State<Configuration>,
-    until: f64,
-}
+type States = Vec<State<Configuration>>;
 
 /// What a setting costs, and how far it is off.
 struct Point {
@@ -59,8 +57,8 @@ fn main() -> Result<(), Error> {
         start,
         until,
     };
-    let explicit = [problem.explicit()?];
-    let gauss = problem.gauss()?;
+    let explicit = [explicit(&problem)?];
+    let gauss = gauss(&problem)?;
     println!("{path}, t = {until} s");
     println!(
         "{:>6}  {:>9} {:<14}  {:>9} {:<30}  {:>5}",
@@ -93,133 +91,102 @@ fn cheapest(families: &[Vec<Point>], asked: f64) -> Option<&Point> {
     counting.min_by_key(|point| point.time)
 }
 
-impl Problem {
-    /// The attitudes at so many equal parts of the time.
-    fn samples(&self, parts: usize, tolerance: f64) -> Result<Vec<State<Configuration>>, Error> {
-        let mut samples = Vec::with_capacity(parts);
-        let every = self.until / parts as f64;
-        let mut keep = |t, y: &[f64]| samples.extend(raw::unpack(t, y));
-        let tolerance = Tolerance::uniform(tolerance);
-        // A little more, so that rounding does not leave the end out.
-        let until = self.until * (1.0 + 1e-12);
-        dop853::sample(
-            &self.model,
-            &self.start,
-            until,
-            (every, &mut keep),
-            tolerance,
-        )?;
-        Ok(samples)
-    }
+/// The largest angle between attitudes over a run, rad.
+fn apart(problem: &Problem, states: &States, exact: &States) -> Result<f64, Error> {
+    Ok(Errors::new(&problem.model, states, exact)?.attitude)
+}
 
-    /// The largest angle between attitudes over a run, rad.
-    fn apart(
-        &self,
-        states: &[State<Configuration>],
-        exact: &[State<Configuration>],
-    ) -> Result<f64, Error> {
-        if states.len() != exact.len() {
-            return Err("states at the wrong times".into());
-        }
-        Ok(Errors::new(&self.model, states, exact)?.attitude)
-    }
+fn explicit(problem: &Problem) -> Result<Vec<Point>, Error> {
+    let parts = (REFERENCE_RATE * problem.until).round() as u64;
+    let gauss = Contender::Structure(Method::Gauss8);
+    let exact = gauss.sample(problem, Setting::Steps(parts), parts)?;
+    let error = |tolerance| {
+        let states = Contender::Dp853.sample(problem, Setting::Tolerance(tolerance), parts)?;
+        apart(problem, &states, &exact)
+    };
+    println!("the references are apart by {:.1e} rad", error(REFERENCE)?);
+    let point = |quarter| {
+        let tolerance = 10_f64.powf(-2.0 - 0.25 * f64::from(quarter));
+        let run = || {
+            let tolerance = Tolerance::uniform(tolerance);
+            dop853::integrate(&problem.model, &problem.start, problem.until, tolerance)
+        };
+        Ok(Point {
+            setting: format!("tol {tolerance:.1e}"),
+            time: shortest(run)?,
+            error: error(tolerance)?,
+        })
+    };
+    (0..50).map(point).collect()
+}
 
-    fn explicit(&self) -> Result<Vec<Point>, Error> {
-        let parts = (REFERENCE_RATE * self.until).round() as usize;
-        let mut exact = Vec::with_capacity(parts);
-        self.run::<8>(0.0, parts, |state| exact.push(state.clone()))?;
-        let references = self.apart(&self.samples(parts, REFERENCE)?, &exact)?;
-        println!("the references are apart by {references:.1e} rad");
-        let mut family = Vec::new();
-        for quarter in 0..50 {
-            let tolerance = 10_f64.powf(-2.0 - 0.25 * f64::from(quarter));
-            let error = self.apart(&self.samples(parts, tolerance)?, &exact)?;
-            let uniform = Tolerance::uniform(tolerance);
-            let time = shortest(|| {
-                Ok(dop853::integrate(
-                    &self.model,
-                    &self.start,
-                    self.until,
-                    uniform,
-                )?)
-            })?;
-            let setting = format!("tol {tolerance:.1e}");
+/// A family for each number of stages and tolerance.
+fn gauss(problem: &Problem) -> Result<Vec<Vec<Point>>, Error> {
+    let mut exact = Vec::new();
+    for rate in RATES {
+        let steps = (rate * problem.until).round() as u64;
+        let reference = Setting::Tolerance(REFERENCE);
+        exact.push((steps, Contender::Dp853.sample(problem, reference, steps)?));
+    }
+    let mut families = Vec::new();
+    for decade in 3..=14 {
+        let tolerance = 10_f64.powi(-decade);
+        families.push(family::<4>(problem, tolerance, &exact)?);
+        families.push(family::<5>(problem, tolerance, &exact)?);
+        families.push(family::<6>(problem, tolerance, &exact)?);
+        families.push(family::<7>(problem, tolerance, &exact)?);
+        families.push(family::<8>(problem, tolerance, &exact)?);
+    }
+    Ok(families)
+}
+
+/// In steps of every size; one that is refused is infinitely far off.
+fn family<const S: usize>(
+    problem: &Problem,
+    tolerance: f64,
+    exact: &[(u64, States)],
+) -> Result<Vec<Point>, Error> {
+    let mut family = Vec::new();
+    for (steps, exact) in exact {
+        let mut states = vec![problem.start.clone()];
+        let keep = |state: &State<Configuration>| states.push(state.clone());
+        let Ok(sweeps) = run::<S>(problem, tolerance, *steps, keep) else {
             family.push(Point {
-                setting,
-                time,
-                error,
-            });
-        }
-        Ok(family)
-    }
-
-    /// A family for each number of stages and tolerance.
-    fn gauss(&self) -> Result<Vec<Vec<Point>>, Error> {
-        let steps = RATES.map(|rate| (rate * self.until).round() as usize);
-        let mut exact = Vec::new();
-        for steps in steps {
-            exact.push((steps, self.samples(steps, REFERENCE)?));
-        }
-        let mut families = Vec::new();
-        for decade in 3..=14 {
-            let tolerance = 10_f64.powi(-decade);
-            families.push(self.family::<4>(tolerance, &exact)?);
-            families.push(self.family::<5>(tolerance, &exact)?);
-            families.push(self.family::<6>(tolerance, &exact)?);
-            families.push(self.family::<7>(tolerance, &exact)?);
-            families.push(self.family::<8>(tolerance, &exact)?);
-        }
-        Ok(families)
-    }
-
-    fn family<const S: usize>(
-        &self,
-        tolerance: f64,
-        exact: &[(usize, Vec<State<Configuration>>)],
-    ) -> Result<Vec<Point>, Error> {
-        let mut family = Vec::new();
-        for (steps, exact) in exact {
-            let run = || self.run::<S>(tolerance, *steps, |_| ());
-            let mut states = Vec::with_capacity(*steps);
-            let mut point = Point {
                 setting: String::new(),
                 time: Duration::MAX,
                 error: f64::INFINITY,
-            };
-            if let Ok(sweeps) = self.run::<S>(tolerance, *steps, |state| states.push(state.clone()))
-            {
-                point.error = self.apart(&states, exact)?;
-                point.time = shortest(run)?;
-                let (h, mean) = (
-                    self.until / *steps as f64,
-                    f64::from(sweeps) / *steps as f64,
-                );
-                point.setting = format!("{S}, h {h:.3}, tol {tolerance:.0e}, {mean:.1}");
-            }
-            family.push(point);
-        }
-        Ok(family)
+            });
+            continue;
+        };
+        let (h, mean) = (problem.until / *steps as f64, sweeps as f64 / *steps as f64);
+        family.push(Point {
+            setting: format!("{S}, h {h:.3}, tol {tolerance:.0e}, {mean:.1}"),
+            time: shortest(|| run::<S>(problem, tolerance, *steps, |_| ()))?,
+            error: apart(problem, &states, exact)?,
+        });
     }
-
-    /// A run, and its sweeps.
-    fn run<const S: usize>(
-        &self,
-        tolerance: f64,
-        steps: usize,
-        mut each: impl FnMut(&State<Configuration>),
-    ) -> Result<u32, Error> {
-        let mut integrator = Gauss::<_, S>::new(self.model.clone()).with_tolerance(tolerance);
-        let (mut state, h) = (self.start.clone(), self.until / steps as f64);
-        let mut sweeps = 0;
-        for _ in 0..steps {
-            sweeps += integrator.step(&mut state, h)?.iterations;
-            each(&state);
-        }
-        Ok(sweeps)
-    }
+    Ok(family)
 }
 
-fn shortest<T>(run: impl Fn() -> Result<T, Error>) -> Result<Duration, Error> {
+/// A run, and its sweeps.
+fn run<const S: usize>(
+    problem: &Problem,
+    tolerance: f64,
+    steps: u64,
+    mut each: impl FnMut(&State<Configuration>),
+) -> Result<u64, dvi::StepError> {
+    let mut integrator = Gauss::<_, S>::new(problem.model.clone()).with_tolerance(tolerance);
+    let (mut state, h) = (problem.start.clone(), problem.until / steps as f64);
+    let mut sweeps = 0;
+    for _ in 0..steps {
+        sweeps += u64::from(integrator.step(&mut state, h)?.iterations);
+        each(&state);
+    }
+    Ok(sweeps)
+}
+
+/// The least time of several runs.
+fn shortest<T, E>(run: impl Fn() -> Result<T, E>) -> Result<Duration, E> {
     let (mut shortest, begun) = (Duration::MAX, Instant::now());
     for _ in 0..REPEATS {
         let start = Instant::now();

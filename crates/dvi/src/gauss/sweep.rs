@@ -60,10 +60,11 @@ impl<G: RealGroup, S: Scalar> Block<G, S> {
         Over::<G, S>::chart_rates_into::<R>((&self.c, &self.pi), (&self.xi, &self.tau), rates);
     }
 
-    /// The force in the frame of the step's start.
+    /// The force in the frame of the step's start, into `out` too.
     #[inline(always)]
-    fn transport_force(&mut self) {
+    fn transport_force(&mut self, out: &mut [S]) {
         self.f.inverse_coadjoint_into(&self.tau, &mut self.force);
+        self.force.write(out);
     }
 }
 
@@ -401,8 +402,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     fn find_momentum(&mut self, h: S::Item, mu: &DualOver<C::Group, S::Item>) {
         let (weights, end) = (&self.coefficients.weights, &mut self.end);
         for (k, block) in self.blocks.iter_mut().enumerate() {
-            block.transport_force();
-            block.force.write(self.force.block_mut(k));
+            block.transport_force(self.force.block_mut(k));
         }
         weights.combine((&mut self.given, &mut self.rates), h, &self.force);
         end.impulse.read(&self.given);
@@ -480,8 +480,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         block.c.read(self.c.block(k));
         block.tau.read(self.tau.block(k));
         R::retract_into::<Over<C::Group, S>>(&block.c, &mut block.f);
-        block.transport_force();
-        block.force.write(self.force.block_mut(k));
+        block.transport_force(self.force.block_mut(k));
     }
 
     /// $\pi_i$ from the momentum in the frame of the start.
