@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use num_traits::{One, Zero};
 
-use crate::{Jet, NotUnique, OutsideChart, Retraction, Scalar, VectorSpace, dense};
+use crate::{Jet, NotUnique, OutsideChart, Retraction, Scalar, Units, VectorSpace, dense};
 
 /// The group `G` with its numbers replaced by `S`.
 pub type Over<G, S> = <G as LieGroup>::WithScalar<S>;
@@ -75,6 +75,13 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
     #[inline(always)]
     fn same_shape(&self, _other: &Self) -> bool {
         true
+    }
+
+    /// Appends the units of the algebra's coordinates; by default all share one that is their own.
+    ///
+    /// Integrators compare sizes within a unit only, so that their steps do not depend on what is called a metre.
+    fn units(&self, units: &mut Units) {
+        units.vector(self.zero_dual().dim());
     }
 
     /// The identity, of this element's shape.

@@ -95,6 +95,7 @@ mod so2;
 mod so3;
 mod stumpff;
 mod symmetric;
+mod units;
 mod vector;
 mod vector_space;
 
@@ -112,5 +113,6 @@ pub use se3::SE3;
 pub use so2::SO2;
 pub use so3::{Displacement, SO3};
 pub use symmetric::{Ldl3, Sym3};
+pub use units::Units;
 pub use vector::Vec3;
 pub use vector_space::{Cotangent, Tangent, VectorSpace};

@@ -6,7 +6,9 @@ use core::array::from_fn;
 
 use num_traits::Zero;
 
-use crate::{LieGroup, NotUnique, OutsideChart, Over, Power, Retraction, Scalar, VectorSpace};
+use crate::{
+    LieGroup, NotUnique, OutsideChart, Over, Power, Retraction, Scalar, Units, VectorSpace,
+};
 
 /// Collects the factors' logarithms: unique where all are.
 struct Logs {
@@ -165,6 +167,9 @@ macro_rules! tuple {
             #[inline(always)]
             fn same_shape(&self, other: &Self) -> bool {
                 $(self.$i.same_shape(&other.$i))&&+
+            }
+            fn units(&self, units: &mut Units) {
+                $(self.$i.units(units);)+
             }
             #[inline(always)]
             fn identity_like(&self) -> Self {
@@ -456,6 +461,9 @@ macro_rules! repeated {
             #[inline(always)]
             fn same_shape(&self, other: &Self) -> bool {
                 self.len() == other.len() && self.iter().zip(other.iter()).all(|(a, b)| a.same_shape(b))
+            }
+            fn units(&self, units: &mut Units) {
+                units.repeat(self.iter());
             }
             #[inline(always)]
             fn identity_like(&self) -> Self {

@@ -3,7 +3,7 @@
 use crate::kahan;
 use crate::plane::{add, cross, dot, scale, turn};
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
-use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO2, Scalar, Tangent};
+use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO2, Scalar, Tangent, Units};
 
 /// A rigid displacement $y \mapsto R y + x$ of the plane, the semidirect product $SO(2) \ltimes \mathbb{R}^2$.
 ///
@@ -183,6 +183,11 @@ impl<S: Scalar> LieGroup for SE2<S> {
     fn bracket(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
         let ((w, v), (a, u)) = (split(xi.0), split(eta.0));
         Tangent(join(S::zero(), add(turn(w, u), turn(-a, v))))
+    }
+
+    fn units(&self, units: &mut Units) {
+        units.angles(1);
+        units.vector(2);
     }
 
     #[inline(always)]

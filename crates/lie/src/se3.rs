@@ -2,7 +2,9 @@
 
 use crate::kahan;
 use crate::stumpff::{stumpff, stumpff_next};
-use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO3, Scalar, Tangent, Vec3};
+use crate::{
+    Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO3, Scalar, Tangent, Units, Vec3,
+};
 
 /// A rigid displacement $y \mapsto R y + x$, the semidirect product $SO(3) \ltimes \mathbb{R}^3$.
 ///
@@ -194,6 +196,11 @@ impl<S: Scalar> LieGroup for SE3<S> {
     fn bracket(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
         let ((w, v), (a, b)) = (xi.split(), eta.split());
         (w.cross(a), w.cross(b) + v.cross(a)).into()
+    }
+
+    fn units(&self, units: &mut Units) {
+        units.angles(3);
+        units.vector(3);
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! SO(2): rotations of the plane.
 
 use crate::kahan;
-use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, Scalar, Tangent};
+use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, Scalar, Tangent, Units};
 
 /// A rotation of the plane, held as $(\cos\theta, \sin\theta)$.
 ///
@@ -182,6 +182,10 @@ impl<S: Scalar> LieGroup for SO2<S> {
     #[inline(always)]
     fn bracket(_: &Tangent<1, S>, _: &Tangent<1, S>) -> Tangent<1, S> {
         Tangent::zero()
+    }
+
+    fn units(&self, units: &mut Units) {
+        units.angles(1);
     }
 
     #[inline(always)]

@@ -3,7 +3,8 @@
 use crate::kahan;
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
 use crate::{
-    Cotangent, LieGroup, Mat3, NotARotation, NotUnique, OutsideChart, Over, Scalar, Tangent, Vec3,
+    Cotangent, LieGroup, Mat3, NotARotation, NotUnique, OutsideChart, Over, Scalar, Tangent, Units,
+    Vec3,
 };
 
 /// A rotation, held as its matrix $R$.
@@ -293,6 +294,10 @@ impl<S: Scalar> LieGroup for SO3<S> {
     #[inline(always)]
     fn bracket(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
         xi.vec3().cross(eta.vec3()).into()
+    }
+
+    fn units(&self, units: &mut Units) {
+        units.angles(3);
     }
 
     #[inline(always)]

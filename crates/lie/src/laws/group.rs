@@ -4,7 +4,7 @@ use super::Outcome;
 use super::checker::{Checker, size};
 use super::examples::Examples;
 use super::linear::{at_most, generic, zero};
-use crate::{Jet, LieGroup, Over, Scalar};
+use crate::{Jet, LieGroup, Over, Scalar, Units, VectorSpace};
 
 pub(super) fn check<G>(c: &mut Checker, examples: &Examples<G>) -> Outcome
 where
@@ -29,7 +29,11 @@ fn zeros<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
     let (algebra, dual, case) = (g.zero_algebra(), g.zero_dual(), || format!("g = {g:?}"));
     let sides = (&algebra, &zero(&algebra));
     c.vectors("zero_algebra = 0", &case, sides, 1.0)?;
-    c.vectors("zero_dual = 0", &case, (&dual, &zero(&dual)), 1.0)
+    c.vectors("zero_dual = 0", &case, (&dual, &zero(&dual)), 1.0)?;
+    let named: usize = Units::of(g).blocks().map(|(block, _)| block.len()).sum();
+    let sides = [named, dual.dim()].map(|n| G::Scalar::from_f64(n as f64));
+    let formula = "units name as many coordinates as there are";
+    c.numbers(formula, &case, (&sides[..1], &sides[1..]), 0.5)
 }
 
 fn units<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
