@@ -191,4 +191,8 @@ impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
     fn fits(&self, g: &Configuration) -> bool {
         g.2.len() + 1 == self.nodes.len()
     }
+
+    fn is_defined(&self, _t: f64, _g: &Configuration) -> bool {
+        true
+    }
 }

@@ -76,6 +76,10 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for Adjoint<L> {
         self.0.fits(g)
     }
 
+    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
+        self.0.is_defined(t, g)
+    }
+
     fn order(&self) -> u32 {
         self.0.order()
     }
@@ -295,6 +299,14 @@ impl<L: DiscreteLagrangian, const P: u32> Integrator for Composition<L, P> {
         });
         self.steps = steps;
         peeked.map(|_| ahead)
+    }
+
+    fn reset(&mut self) {
+        (self.steps, self.before) = (0, None);
+        for part in &mut self.parts {
+            part.method.reset();
+            part.adjoint.iter_mut().for_each(Integrator::reset);
+        }
     }
 }
 

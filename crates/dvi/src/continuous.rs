@@ -44,6 +44,17 @@ pub trait ContinuousSystem {
     fn fits(&self, _g: &Self::Group) -> bool {
         true
     }
+
+    /// Whether `g` is in the domain of the system: a step whose end is not is refused.
+    fn is_defined(&self, _t: f64, _g: &Self::Group) -> bool {
+        true
+    }
+
+    /// A coordinate along which the kinetic energy has no inertia, so that a momentum there has no velocity; asked for where an evaluation is not
+    /// finite, to say why.
+    fn without_inertia(&self, _t: f64, _g: &Self::Group) -> Option<usize> {
+        None
+    }
 }
 
 impl<C: ContinuousSystem> ContinuousSystem for &C {
@@ -74,5 +85,13 @@ impl<C: ContinuousSystem> ContinuousSystem for &C {
 
     fn fits(&self, g: &C::Group) -> bool {
         C::fits(self, g)
+    }
+
+    fn is_defined(&self, t: f64, g: &C::Group) -> bool {
+        C::is_defined(self, t, g)
+    }
+
+    fn without_inertia(&self, t: f64, g: &C::Group) -> Option<usize> {
+        C::without_inertia(self, t, g)
     }
 }

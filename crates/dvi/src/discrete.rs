@@ -84,6 +84,14 @@ pub trait DiscreteLagrangian {
         true
     }
 
+    /// Whether `g` is in the domain of $L_d$; by default, whether there is an action of staying there.
+    ///
+    /// A step whose end is not is refused. A system that is defined everywhere may say so: it saves an evaluation a step.
+    fn is_defined(&self, t: f64, g: &Self::Group) -> bool {
+        self.value_at::<f64>(t, g, &g.identity_like(), 1.0)
+            .is_finite()
+    }
+
     /// The order of the method.
     fn order(&self) -> u32 {
         1
@@ -127,6 +135,9 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for &L {
     }
     fn fits(&self, g: &L::Group) -> bool {
         L::fits(self, g)
+    }
+    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
+        L::is_defined(self, t, g)
     }
     fn order(&self) -> u32 {
         L::order(self)

@@ -2,6 +2,8 @@
 
 use lie::Scalar;
 
+use crate::degenerate::Square;
+
 /// A square matrix, factorised by Gauss elimination with row pivoting.
 ///
 /// A singular matrix is not an error here: a solution is then not finite.
@@ -11,6 +13,8 @@ pub(crate) struct Elimination<S> {
     entries: Vec<S>,
     /// The row that elimination took for each column.
     pivots: Vec<usize>,
+    /// What rows are relative to.
+    units: Vec<f64>,
 }
 
 impl<S: Scalar> Elimination<S> {
@@ -19,6 +23,7 @@ impl<S: Scalar> Elimination<S> {
             n,
             entries: vec![S::zero(); n * n],
             pivots: vec![0; n],
+            units: vec![1.0; n],
         }
     }
 
@@ -27,15 +32,23 @@ impl<S: Scalar> Elimination<S> {
         self.entries[row * self.n + column] = value;
     }
 
+    /// Factorises a matrix from a vector space to its dual: its diagonal tells the units of the rows that pivots are chosen from.
     pub(crate) fn factorise(&mut self) {
         let n = self.n;
+        for (i, unit) in self.units.iter_mut().enumerate() {
+            *unit = match self.entries[i * n + i].magnitude() {
+                0.0 => 1.0,
+                size => size.sqrt(),
+            };
+        }
         for k in 0..n {
-            let size = |row: &usize| self.entries[row * n + k].magnitude();
+            let size = |row: &usize| self.entries[row * n + k].magnitude() / self.units[*row];
             let best = (k..n).max_by(|a, b| size(a).total_cmp(&size(b)));
             let best = best.unwrap_or(k);
             self.pivots[k] = best;
             if best != k {
                 (0..n).for_each(|j| self.entries.swap(k * n + j, best * n + j));
+                self.units.swap(k, best);
             }
             for row in k + 1..n {
                 let factor = self.entries[row * n + k] / self.entries[k * n + k];
@@ -62,6 +75,13 @@ impl<S: Scalar> Elimination<S> {
             let known = (i + 1..n).fold(x[i], |sum, j| sum - entry(i, j) * x[j]);
             x[i] = known / entry(i, i);
         }
+    }
+}
+
+impl Elimination<f64> {
+    /// The matrix, before it is factorised.
+    pub(crate) fn square(&self) -> Square {
+        Square::new(self.n, self.entries.clone())
     }
 }
 

@@ -64,9 +64,22 @@ pub enum StepError {
         /// Coordinates of the momentum.
         found: usize,
     },
+    /// The kinetic energy has no inertia in some direction.
+    #[error(
+        "step {step} at t = {} s: the kinetic energy has no inertia along coordinate {coordinate} of the velocity; give it one there (a Lagrangian that is linear in a velocity has none: such are not supported)",
+        nine_digits(*t)
+    )]
+    Degenerate {
+        /// Steps that this integrator has taken before.
+        step: u64,
+        /// Time at the start of the step, in seconds.
+        t: f64,
+        /// Index of a coordinate of the algebra along which there is none, whatever the others before it do.
+        coordinate: usize,
+    },
     /// The state, the model or the state after the step has a number that is not finite.
     #[error(
-        "step {step} at t = {} s: a number is not finite: in the state, in the velocity or the derivatives at it, or in the state after a step of {} s; check the initial state, the model's parameters (an inertia that is singular gives no velocity) and the step",
+        "step {step} at t = {} s: a number is not finite: in the state, in the velocity or the derivatives at it, or in the state after a step of {} s; check that the initial state is in the domain of the Lagrangian, the model's parameters, and whether the step leaves the domain",
         nine_digits(*t), nine_digits(*h)
     )]
     NotFinite {
@@ -115,6 +128,11 @@ impl StepError {
                 expected,
                 found,
             },
+            Self::Degenerate { coordinate, .. } => Self::Degenerate {
+                step,
+                t,
+                coordinate,
+            },
             Self::NotFinite { .. } => Self::NotFinite { step, t, h },
         }
     }
@@ -139,8 +157,6 @@ pub enum Hint {
         /// A relative tolerance to try.
         tolerance: f64,
     },
-    /// The balance hardly depends on some direction of the displacement: no inertia there.
-    Degenerate,
 }
 
 impl core::fmt::Display for Hint {
@@ -157,10 +173,6 @@ impl core::fmt::Display for Hint {
             Self::LooserTolerance { tolerance } => write!(
                 f,
                 "rounding reaches no further: try a tolerance of {tolerance:.0e}, or another step"
-            ),
-            Self::Degenerate => write!(
-                f,
-                "its matrix is singular: give the kinetic energy an inertia in every direction of the velocity"
             ),
         }
     }

@@ -199,6 +199,10 @@ where
         self.system.fits(g)
     }
 
+    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
+        self.system.is_defined(t, g)
+    }
+
     fn order(&self) -> u32 {
         self.system.order().min(self.force.order())
     }
@@ -244,5 +248,13 @@ where
 
     fn fits(&self, g: &L::Group) -> bool {
         self.system.fits(g)
+    }
+
+    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
+        self.system.is_defined(t, g)
+    }
+
+    fn without_inertia(&self, t: f64, g: &L::Group) -> Option<usize> {
+        self.system.without_inertia(t, g)
     }
 }

@@ -2,9 +2,11 @@
 
 use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, Scalar, VectorSpace};
 
+use crate::degenerate::without_inertia;
 use crate::elimination::Elimination;
 use crate::jets::{Lifted, add_constant, for_each_chunk, read_partials};
-use crate::numbers::larger;
+use crate::numbers::{larger, relative};
+use crate::sizes::Kinds;
 use crate::{ContinuousSystem, Lagrangian, State};
 
 /// Newton iterations before a momentum is taken to have no velocity.
@@ -88,6 +90,10 @@ struct RealNewton<L: Lagrangian, S: Scalar> {
     rhs: Vec<S>,
     /// The last correction of `xi`.
     delta: Vec<S>,
+    kinds: Kinds,
+    /// The largest residuals, momenta, corrections and velocities of each kind.
+    sizes: [Vec<f64>; 4],
+    numbers: Vec<f64>,
 }
 
 /// Duals of duals: second derivatives.
@@ -100,8 +106,11 @@ fn twice<S: Scalar>(x: S) -> Twice<S> {
 impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
     fn new(g: &Over<L::Group, S>) -> Self {
         let lifted = L::Group::convert::<S, Twice<S>>(g, twice);
-        let dim = g.zero_dual().dim();
+        let (dim, kinds) = (g.zero_dual().dim(), Kinds::of(g));
         Self {
+            sizes: [0; 4].map(|_| vec![0.0; kinds.count]),
+            numbers: vec![0.0; dim],
+            kinds,
             moved: lifted.zero_algebra(),
             twice: lifted,
             gradient: g.zero_dual(),
@@ -122,12 +131,14 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
         let (mut last, mut part) = (f64::INFINITY, 1.0);
         for _ in 0..MAX_ITERATIONS {
             self.differentiate(lagrangian, t);
-            let (mut residual, mut size) = (0.0_f64, 0.0_f64);
+            self.sizes.iter_mut().for_each(|sizes| sizes.fill(0.0));
             for (i, entry) in self.rhs.iter_mut().enumerate() {
                 *entry = mu(i) - self.gradient.get(i);
-                residual = larger(residual, entry.magnitude());
-                size = larger(size, mu(i).magnitude() + self.gradient.get(i).magnitude());
             }
+            self.raise(0, |newton, i| newton.rhs[i]);
+            self.raise(1, |newton, i| newton.gradient.get(i));
+            self.raise(1, |_, i| mu(i));
+            let residual = self.ratio(0, 1);
             if residual.is_nan() && last.is_infinite() {
                 return false;
             }
@@ -141,14 +152,31 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
             self.delta.copy_from_slice(&self.rhs);
             self.correct(1.0);
             (last, part) = (residual, 1.0);
-            let sizes = self.delta.iter().map(|d| d.magnitude());
-            let correction = sizes.fold(0.0, larger);
-            let rounding = residual <= ROUNDING * size && correction.is_finite();
-            if rounding || correction <= CONVERGED * self.xi.max_magnitude() {
+            self.raise(2, |newton, i| newton.delta[i]);
+            self.raise(3, |newton, i| newton.xi.get(i));
+            let correction = self.ratio(2, 3);
+            let rounding = residual <= ROUNDING && !correction.is_nan();
+            if rounding || correction <= CONVERGED {
                 return true;
             }
         }
         false
+    }
+
+    /// Takes the largest magnitudes of each kind, where they are larger than those before.
+    fn raise(&mut self, which: usize, number: impl Fn(&Self, usize) -> S) {
+        for i in 0..self.numbers.len() {
+            self.numbers[i] = number(self, i).magnitude();
+        }
+        self.kinds.raise(&mut self.sizes[which], &self.numbers);
+    }
+
+    /// The largest sizes relative to others, in the kind where that is largest.
+    fn ratio(&self, part: usize, whole: usize) -> f64 {
+        let kinds = self.sizes[part].iter().zip(&self.sizes[whole]);
+        kinds.fold(0.0, |max, (part, whole)| {
+            larger(max, relative(*part, *whole))
+        })
     }
 
     /// Moves the iterate by a part of the correction.
@@ -267,5 +295,18 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
 
     fn fits(&self, g: &L::Group) -> bool {
         self.0.fits(g)
+    }
+
+    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
+        let still = g.zero_algebra();
+        self.0.value_at::<f64>(t, g, &still).is_finite()
+    }
+
+    fn without_inertia(&self, t: f64, g: &L::Group) -> Option<usize> {
+        let mut newton = RealNewton::<L, f64>::new(g);
+        L::Group::convert_into::<f64, Twice<f64>>(g, twice, &mut newton.twice);
+        newton.differentiate(&self.0, t);
+        let hessian = newton.hessian.square();
+        without_inertia(&hessian, &hessian)
     }
 }

@@ -141,6 +141,10 @@ impl<L: Inertia> StepSolver<L> for FrozenInertia<L> {
         exact.map_or(0, StepSolver::<L>::turns)
     }
 
+    fn degenerate(&self) -> Option<usize> {
+        self.exact.as_ref().and_then(StepSolver::<L>::degenerate)
+    }
+
     #[inline(always)]
     fn begin(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) {
         lagrangian.factorise(&state.g, &mut self.factor);

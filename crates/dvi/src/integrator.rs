@@ -30,7 +30,7 @@ pub trait Integrator {
     /// The state `h` seconds after `state`, at the method's order, without taking the step: for output between steps and for events.
     ///
     /// It is a step of its own from the same state, usually a shorter one; an interpolant through the stages is of half the order.
-    /// The steps that follow are as without it, but for their first guess.
+    /// Calling it does not change later steps, except for their initial guess.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -43,6 +43,11 @@ pub trait Integrator {
         self.step(&mut ahead, h)?;
         Ok(ahead)
     }
+
+    /// Forgets everything that earlier steps have left: the next step is as that of a new integrator, bit by bit.
+    ///
+    /// Call it before another trajectory.
+    fn reset(&mut self);
 }
 
 /// What a step cost and how well it was solved.
@@ -51,7 +56,7 @@ pub trait Integrator {
 pub struct StepReport {
     /// Evaluations of the step's equation.
     pub iterations: u32,
-    /// Norm of the equation's residual, relative to the momentum's.
+    /// The equation's residual relative to the momentum, in the unit of coordinates where that is largest.
     pub residual: f64,
 }
 
@@ -86,6 +91,10 @@ macro_rules! forward {
                 h: f64,
             ) -> Result<State<I::Group>, StepError> {
                 (**self).peek(state, h)
+            }
+
+            fn reset(&mut self) {
+                (**self).reset();
             }
         }
     };

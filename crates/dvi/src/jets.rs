@@ -1,6 +1,7 @@
 //! Dual copies of group elements, moved along the basis of the algebra in chunks.
 
 use lie::{AlgebraOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
+use num_traits::Zero;
 
 /// Calls `body` with the first direction of every chunk.
 #[inline(always)]
@@ -8,7 +9,8 @@ pub(crate) fn for_each_chunk(dim: usize, body: impl FnMut(usize)) {
     (0..dim).step_by(lie::JET_DIRECTIONS).for_each(body);
 }
 
-/// Copies the derivatives of a chunk into the coordinates from `first` on.
+/// Copies the derivatives of a chunk into the coordinates from `first` on; where there is no value, these are not numbers either: that of a
+/// logarithm is finite where its value is not.
 #[inline(always)]
 pub(crate) fn read_partials<V: VectorSpace>(
     out: &mut V,
@@ -16,8 +18,9 @@ pub(crate) fn read_partials<V: VectorSpace>(
     value: impl Jet<Value = V::Scalar>,
 ) {
     let end = out.dim().min(first + lie::JET_DIRECTIONS);
+    let poison = value.value() * V::Scalar::zero();
     for i in first..end {
-        out.set(i, value.partial(i - first));
+        out.set(i, value.partial(i - first) + poison);
     }
 }
 

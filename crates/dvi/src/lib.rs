@@ -48,6 +48,7 @@
 mod balance;
 mod composition;
 mod continuous;
+mod degenerate;
 mod discrete;
 mod elimination;
 mod error;
@@ -65,6 +66,7 @@ mod newton;
 mod numbers;
 mod pilot;
 mod quadrature;
+mod sizes;
 mod solver;
 mod state;
 mod symmetry;

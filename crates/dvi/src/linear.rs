@@ -7,6 +7,8 @@ use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
 use faer::{Mat, MatMut, Par, Spec};
 
+use crate::degenerate::Square;
+
 /// A square matrix, its LU factorisation with partial pivoting, and a right-hand side.
 ///
 /// A singular matrix is not an error here: the solution is then not finite, and the iteration sees that.
@@ -16,6 +18,8 @@ pub(crate) struct Factorisation {
     forward: Vec<usize>,
     inverse: Vec<usize>,
     swaps: usize,
+    /// Powers of two that rows and columns are multiplied by.
+    scales: [Vec<f64>; 2],
     rhs: Vec<f64>,
     memory: MemBuffer,
 }
@@ -30,6 +34,7 @@ impl Factorisation {
             forward: vec![0; n],
             inverse: vec![0; n],
             swaps: 0,
+            scales: [vec![1.0; n], vec![1.0; n]],
             rhs: vec![0.0; n],
             memory: MemBuffer::new(factor.or(solve)),
         }
@@ -37,6 +42,13 @@ impl Factorisation {
 
     pub(crate) fn set(&mut self, row: usize, column: usize, value: f64) {
         self.matrix[(row, column)] = value;
+    }
+
+    /// The matrix, row by row.
+    pub(crate) fn square(&self) -> Square {
+        let n = self.rhs.len();
+        let entries = (0..n * n).map(|k| self.matrix[(k / n, k % n)]);
+        Square::new(n, entries.collect())
     }
 
     /// Takes over the block of `whole` in these rows and columns.
@@ -48,8 +60,46 @@ impl Factorisation {
         }
     }
 
+    /// Factorises a matrix from a vector space to its dual: its diagonal tells the units of the coordinates.
+    ///
+    /// The pivots are chosen among numbers that do not depend on the units, so neither does the solution, by powers of two not even its bits.
     pub(crate) fn factorise(&mut self) {
-        self.factors.copy_from(&self.matrix);
+        let exponents: Vec<_> = (0..self.rhs.len())
+            .map(|i| exponent(self.matrix[(i, i)]))
+            .collect();
+        // Their differences are twice those of the units: halved exactly.
+        let first = exponents.iter().flatten().next().copied().unwrap_or(0);
+        for (i, exponent) in exponents.into_iter().enumerate() {
+            let half = (exponent.unwrap_or(first) - first).div_euclid(2);
+            self.scales
+                .iter_mut()
+                .for_each(|s| s[i] = power_of_two(-half));
+        }
+        self.factorise_scaled();
+    }
+
+    /// Factorises a matrix from a space of vectors of these sizes to itself.
+    pub(crate) fn factorise_map(&mut self, sizes: impl Iterator<Item = f64>) {
+        for (i, size) in sizes.enumerate() {
+            let exponent = exponent(size).unwrap_or(0);
+            self.scales[0][i] = power_of_two(-exponent);
+            self.scales[1][i] = power_of_two(exponent);
+        }
+        self.factorise_scaled();
+    }
+
+    fn factorise_scaled(&mut self) {
+        let n = self.rhs.len();
+        let [rows, columns] = &self.scales;
+        for j in 0..n {
+            let (to, from) = (
+                self.factors.col_as_slice_mut(j),
+                self.matrix.col_as_slice(j),
+            );
+            for ((to, from), row) in to.iter_mut().zip(from).zip(rows) {
+                *to = from * row * columns[j];
+            }
+        }
         let (info, _) = factor::lu_in_place(
             self.factors.as_mut(),
             &mut self.forward,
@@ -59,21 +109,6 @@ impl Factorisation {
             Spec::default(),
         );
         self.swaps = info.transposition_count;
-    }
-
-    /// Whether a pivot is rounding beside its row, or not a number.
-    pub(crate) fn is_singular(&self) -> bool {
-        /// Roundings that elimination may leave in place of a zero.
-        const ROUNDING: f64 = 100.0 * f64::EPSILON;
-        let n = self.rhs.len();
-        let largest = |row: usize| {
-            let sizes = (0..n).map(|column| self.matrix[(self.forward[row], column)].abs());
-            sizes.fold(0.0, f64::max)
-        };
-        (0..n).any(|i| {
-            self.factors[(i, i)].abs().is_nan()
-                || self.factors[(i, i)].abs() <= ROUNDING * largest(i)
-        })
     }
 
     /// Whether the determinant is negative.
@@ -106,6 +141,11 @@ impl Factorisation {
     /// Replaces the right-hand side by the solution.
     pub(crate) fn solve(&mut self) -> &[f64] {
         let n = self.rhs.len();
+        let [rows, columns] = &self.scales;
+        let scale = |x: &mut [f64], scales: &[f64]| {
+            x.iter_mut().zip(scales).for_each(|(x, scale)| *x *= scale);
+        };
+        scale(&mut self.rhs, rows);
         let permutation = PermRef::new_checked(&self.forward, &self.inverse, n);
         solve::solve_in_place(
             self.factors.as_ref(),
@@ -115,13 +155,48 @@ impl Factorisation {
             Par::Seq,
             MemStack::new(&mut self.memory),
         );
+        scale(&mut self.rhs, columns);
         &self.rhs
     }
+}
+
+/// That of the power of two at or below the magnitude; none of zero and of what is no number.
+fn exponent(x: f64) -> Option<i32> {
+    let biased = (x.to_bits() >> 52) as i32 & 0x7ff;
+    (biased != 0 && biased != 0x7ff).then_some(biased - 0x3ff)
+}
+
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent.clamp(-0x3fe, 0x3ff) + 0x3ff) as u64) << 52)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_units_of_the_coordinates_do_not_change_a_bit() {
+        let matrix = [[2.0, -3.0, 0.1], [0.7, 1e-3, 5.0], [-1.3, 0.2, 0.3]];
+        let solve = |units: [f64; 3]| {
+            let mut system = Factorisation::new(3);
+            for (i, row) in matrix.iter().enumerate() {
+                (0..3).for_each(|j| system.set(i, j, row[j] * units[i] * units[j]));
+            }
+            system.factorise();
+            let rhs = [1.0, 2.0, -0.3];
+            (0..3).for_each(|i| system.right_hand_side()[i] = rhs[i] * units[i]);
+            let x = system.solve();
+            [0, 1, 2].map(|i| x[i] * units[i])
+        };
+        let expected = solve([1.0; 3]);
+        for units in [
+            [1.0, 1.0, 1024.0],
+            [0.125, 4.0, 1.0],
+            [2.0_f64.powi(40), 0.5, 1.0],
+        ] {
+            assert_eq!(solve(units), expected, "{units:?}");
+        }
+    }
 
     #[test]
     fn solves_what_needs_pivoting_and_does_not_panic_on_the_singular() {

@@ -5,6 +5,7 @@ use core::ops::Range;
 use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
 
 use crate::balance::Balance;
+use crate::degenerate::without_inertia;
 use crate::inertia::DENSE_LIMIT;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
@@ -32,6 +33,7 @@ pub struct Newton<G: RealGroup> {
     /// Negative pivots of the matrix in the chart, and of the inertia.
     index: usize,
     inertia: Option<usize>,
+    degenerate: Option<usize>,
     /// A column of the matrix: in the frame of the step's end, of its start, and in the chart.
     column: [G::Dual; 3],
     f: G,
@@ -56,6 +58,7 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
             g,
             index: 0,
             inertia: None,
+            degenerate: None,
             column,
             f,
         }
@@ -85,9 +88,12 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
         h: f64,
         c: &Algebra<L>,
     ) -> bool {
-        let inertia =
-            || inertia(lagrangian, state, h.abs()).index(|column, out| out.copy_from_slice(column));
-        self.inertia.get_or_insert_with(inertia);
+        if self.inertia.is_none() {
+            let [mut inertia, longer] =
+                VANISHING.map(|part| inertia(lagrangian, state, part * h.abs()));
+            self.degenerate = without_inertia(&inertia.square(), &longer.square());
+            self.inertia = Some(inertia.index(|column, out| out.copy_from_slice(column)));
+        }
         (self.h, self.scale) = (h, 1.0);
         let State { t, g, mu } = state;
         let (t, h) = (J::constant(*t), J::constant(h));
@@ -114,6 +120,10 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
         self.matrix.factorise();
         self.known = true;
         true
+    }
+
+    fn degenerate(&self) -> Option<usize> {
+        self.degenerate
     }
 
     fn solve(&mut self, _: &L, residual: &Dual<L>, delta: &mut Algebra<L>) {
@@ -166,42 +176,42 @@ impl<G: RealGroup> Newton<G> {
     }
 }
 
-/// Whether $L_d$ has no inertia in some direction, where the dimension is small enough to look.
-pub(crate) fn is_degenerate<L: DiscreteLagrangian>(
+/// A coordinate along which $L_d$ has no inertia, where the dimension is small enough to look.
+pub(crate) fn degenerate<L: DiscreteLagrangian>(
     lagrangian: &L,
     state: &State<L::Group>,
     h: f64,
-) -> bool {
+) -> Option<usize> {
     if state.mu.dim() > DENSE_LIMIT {
-        return false;
+        return None;
     }
-    let mut inertia = inertia(lagrangian, state, h);
-    inertia.factorise();
-    inertia.is_singular()
+    let [short, long] = VANISHING.map(|part| inertia(lagrangian, state, part * h).square());
+    without_inertia(&short, &long)
 }
 
-/// $\mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ at $f = e$, in so short a part of the step that a potential is rounding beside
-/// the inertia.
+/// Parts of a step so short that a potential is rounding beside the inertia.
+const VANISHING: [f64; 2] = [1e-8, 1e-6];
+
+/// $h\, \mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ at $f = e$: for a short step the inertia.
 fn inertia<L: DiscreteLagrangian>(
     lagrangian: &L,
     state: &State<L::Group>,
     h: f64,
 ) -> Factorisation {
-    const VANISHING: f64 = 1e-8;
     let g = state.g.lift::<J>();
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
     let mut derivatives = Derivatives::new(&g);
     let dim = c.dim();
     let mut inertia = Factorisation::new(dim);
-    let (t, h) = (J::constant(state.t), J::constant(VANISHING * h));
+    let (t, step) = (J::constant(state.t), J::constant(h));
     for_each_chunk(dim, |first| {
         lie::seed(&mut c, first);
         Over::<L::Group, J>::cayley_into(&c, &mut f);
-        lagrangian.derivatives(t, &g, &f, h, &mut derivatives);
+        lagrangian.derivatives(t, &g, &f, step, &mut derivatives);
         for column in first..dim.min(first + lie::JET_DIRECTIONS) {
             for row in 0..dim {
                 let entry = derivatives.d_f.get(row).partial(column - first);
-                inertia.set(row, column, entry);
+                inertia.set(row, column, h * entry);
             }
         }
     });

@@ -56,6 +56,11 @@ pub trait StepSolver<L: DiscreteLagrangian> {
         0
     }
 
+    /// A coordinate along which the kinetic energy was seen to have no inertia, if any.
+    fn degenerate(&self) -> Option<usize> {
+        None
+    }
+
     /// The correction $\delta$ that the linearised residual asks for; `c - delta` is the next iterate.
     fn solve(&mut self, lagrangian: &L, residual: &Dual<L>, delta: &mut Algebra<L>);
 

@@ -1,5 +1,11 @@
 //! The first guess of a step, extrapolated from the steps before.
 
+use core::ops::Range;
+
+use lie::{LieGroup, Units, VectorSpace};
+
+use crate::numbers::relative;
+
 /// Highest degree of the extrapolating polynomial.
 const DEGREE: usize = 4;
 /// Steps between choices of the degree: comparing costs as much as extrapolating.
@@ -17,11 +23,15 @@ pub(crate) struct WarmStart {
     terms: usize,
     recorded: u32,
     h: f64,
+    /// Coordinates of one unit, and which one.
+    runs: Vec<(Range<usize>, usize)>,
 }
 
 impl WarmStart {
-    pub(crate) fn new(dim: usize) -> Self {
+    pub(crate) fn new<G: LieGroup>(g: &G) -> Self {
+        let dim = g.zero_dual().dim();
         Self {
+            runs: Units::of(g).runs(),
             differences: core::array::from_fn(|_| vec![0.0; dim]),
             known: 0,
             terms: 0,
@@ -51,11 +61,30 @@ impl WarmStart {
     }
 
     fn best(&self) -> usize {
-        let error = |terms: &usize| size(&self.differences[*terms]);
+        let error = |terms: &usize| self.size(*terms);
         // With one solution known there is no error to compare by: repeat it.
         let candidates = 1..self.known.max(2);
         let best = candidates.min_by(|a, b| error(a).total_cmp(&error(b)));
         best.unwrap_or(0).min(self.known)
+    }
+
+    /// How large a difference is relative to the solution, in the kind of coordinates where it is largest.
+    fn size(&self, order: usize) -> f64 {
+        let (part, whole) = (&self.differences[order], &self.differences[0]);
+        let kinds = 0..=self.runs.iter().map(|(_, kind)| *kind).max().unwrap_or(0);
+        let of_kind = |kind: usize| {
+            let runs = self.runs.iter().filter(move |(_, of)| *of == kind);
+            runs.fold([0.0_f64; 2], |[x, y], (run, _)| {
+                [
+                    x.max(size(&part[run.clone()])),
+                    y.max(size(&whole[run.clone()])),
+                ]
+            })
+        };
+        kinds.fold(0.0, |max, kind| {
+            let [part, whole] = of_kind(kind);
+            max.max(relative(part, whole))
+        })
     }
 
     pub(crate) fn record(&mut self, h: f64, solution: &[f64]) {
@@ -93,11 +122,13 @@ fn size(x: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use lie::Rn;
+
     use super::*;
 
     #[test]
     fn a_polynomial_is_continued_exactly() {
-        let mut warm = WarmStart::new(1);
+        let mut warm = WarmStart::new(&Rn([0.0]));
         let cubic = |k: i32| f64::from(k * k * k - 2 * k);
         let mut guess = [0.0];
         assert!(!warm.guess(0.1, &mut guess));
@@ -112,7 +143,7 @@ mod tests {
 
     #[test]
     fn noise_is_not_amplified() {
-        let mut warm = WarmStart::new(1);
+        let mut warm = WarmStart::new(&Rn([0.0]));
         for k in 0..20 {
             warm.record(1.0, &[if k % 2 == 0 { 1.0 } else { -1.0 }]);
         }

@@ -204,4 +204,8 @@ impl DiscreteLagrangian for PlanarBody {
     fn fits(&self, g: &PlanarConfiguration) -> bool {
         self.is_of(g)
     }
+
+    fn is_defined(&self, _t: f64, _g: &PlanarConfiguration) -> bool {
+        true
+    }
 }

@@ -114,4 +114,8 @@ impl<I: Integrator<Group = PlanarConfiguration>> Integrator for InPlane<I> {
         };
         Ok(self.plane.lift(&ahead))
     }
+    fn reset(&mut self) {
+        (self.lifted, self.steps) = (None, 0);
+        self.inner.reset();
+    }
 }

@@ -178,7 +178,14 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R
         }
         let solved = work.solve((system, tableau), (state, h), self.limits);
         let report = solved.map_err(|failure| match failure {
-            Failure::NotFinite => StepError::NotFinite { step, t, h },
+            Failure::NotFinite => match system.without_inertia(t, &state.g) {
+                Some(coordinate) => StepError::Degenerate {
+                    step,
+                    t,
+                    coordinate,
+                },
+                None => StepError::NotFinite { step, t, h },
+            },
             Failure::NotConverged(report, hint) => StepError::NotConverged {
                 step,
                 t,
@@ -194,8 +201,8 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R
     /// Takes the step that was solved.
     fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Result<(), StepError> {
         let (step, t) = (self.steps, state.t);
-        let work = self.work.as_mut();
-        let accepted = work.and_then(|work| work.accept(state, h));
+        let (system, work) = (&self.system, self.work.as_mut());
+        let accepted = work.and_then(|work| work.accept(system, state, h));
         accepted.ok_or(StepError::NotFinite { step, t, h })?;
         self.steps += 1;
         Ok(())
@@ -227,7 +234,15 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Integrator fo
     fn peek(&mut self, state: &State<C::Group>, h: f64) -> Result<State<C::Group>, StepError> {
         let step = self.steps;
         let (_, work) = self.solve(state, h)?;
-        work.ahead((state, h)).if_finite(step, state.t, h)
+        let (t, ahead) = (state.t, work.ahead((state, h)));
+        if !self.system.is_defined(ahead.t, &ahead.g) {
+            return Err(StepError::NotFinite { step, t, h });
+        }
+        ahead.if_finite(step, t, h)
+    }
+
+    fn reset(&mut self) {
+        (self.steps, self.work) = (0, None);
     }
 }
 

@@ -27,8 +27,13 @@ pub(super) struct SweepNewton<C: ContinuousSystem> {
 }
 
 impl<C: ContinuousSystem> SweepNewton<C> {
+    /// How many unknowns there are for vectors of `dim` coordinates.
+    pub(super) fn unknowns(tableau: &Tableau, dim: usize) -> usize {
+        dim * (2 * tableau.nodes.len() + 1)
+    }
+
     pub(super) fn new(system: &C, tableau: &Tableau, g: &C::Group) -> Self {
-        let dim = g.zero_dual().dim() * (2 * tableau.nodes.len() + 1);
+        let dim = Self::unknowns(tableau, g.zero_dual().dim());
         let varied = Varied::new(g);
         Self {
             matrix: Factorisation::new(dim),
@@ -88,8 +93,25 @@ impl<C: ContinuousSystem> SweepNewton<C> {
                 }
             }
         });
-        self.matrix.factorise();
+        self.factorise();
         self.h = h;
+    }
+
+    /// With what the unknowns are of each kind for their units.
+    fn factorise(&mut self) {
+        let (dim, kinds) = (self.sweep.dim(), self.sweep.kinds.clone());
+        let mut sizes = [0, 1, 2].map(|_| vec![0.0; kinds.count]);
+        let last = self.x.len() / dim - 1;
+        let which = |part: usize| if part == last { 2 } else { part % 2 };
+        for (part, numbers) in self.x.chunks_exact(dim).enumerate() {
+            kinds.raise(&mut sizes[which(part)], numbers);
+        }
+        let mut of_coordinate = vec![0; dim];
+        for (run, kind) in &kinds.runs {
+            of_coordinate[run.clone()].fill(*kind);
+        }
+        let sizes = (0..self.x.len()).map(|i| sizes[which(i / dim)][of_coordinate[i % dim]]);
+        self.matrix.factorise_map(sizes);
     }
 
     /// Whether the branch of solutions from $h = 0$, where the matrix is the identity, has turned before the iterate: its matrix is singular

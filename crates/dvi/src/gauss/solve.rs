@@ -31,6 +31,12 @@ const AT_ROOT: f64 = 1e-3;
 const SHORTEST_CORRECTION: f64 = 1e-2;
 /// Steps solved by Newton's method before the plain iteration is tried again.
 const LONG_STEPS: u32 = 16;
+/// Unknowns beyond which Newton's method, whose matrix is dense, costs more than shorter steps.
+const NEWTON_LIMIT: usize = 2000;
+/// The part of a difference at the step's end that one more look leaves of it, at least, where it is rounding.
+const ECHO: f64 = 0.5;
+/// Steps for which rounding stays as it was found.
+const LISTENS_EVERY: u32 = 16;
 
 /// Why a step was not solved.
 pub(super) enum Failure {
@@ -95,6 +101,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         limits: Limits,
     ) -> Result<StepReport, Failure> {
         let tolerance = limits.tolerance;
+        if self.heard == 0 {
+            self.sweep.forget_noise();
+        }
+        self.heard = self.heard.saturating_sub(1);
         if limits.sweeps_only {
             let ended = self.iterate::<R>(method, start, tolerance)?;
             return ended.solved().ok_or_else(|| ended.refusal(start.1));
@@ -125,9 +135,14 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     ) -> Result<Ended, Failure> {
         let mut sweeps = 0;
         if self.long_steps == 0 {
-            match self.iterate::<R>(method, start, tolerance)? {
-                Ended::Slow(report) => sweeps = report.iterations,
+            let report = match self.iterate::<R>(method, start, tolerance)? {
+                Ended::Slow(report) => report,
                 ended => return Ok(ended),
+            };
+            sweeps = report.iterations;
+            let unknowns = SweepNewton::<C>::unknowns(method.1, self.sweep.dim());
+            if unknowns > NEWTON_LIMIT {
+                return Ok(Ended::Slow(report));
             }
             self.long_steps = LONG_STEPS;
         }
@@ -149,6 +164,9 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             return Err(Failure::NotFinite);
         }
         self.sweep.evaluate::<R>(system, (state.t, h));
+        if !known && !self.sweep.has_rates() && self.sweep.leaves_domain(system, (state.t, h)) {
+            return Err(Failure::NotFinite);
+        }
         Ok(())
     }
 
@@ -171,7 +189,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             *start += drift;
         }
         let enough = tolerance.max(8.0 * f64::EPSILON);
-        let mut changes = Changes::default();
+        let (mut changes, mut before) = (Changes::default(), f64::INFINITY);
         let mut report = StepReport::default();
         for iterations in 2..=MAX_SWEEPS {
             self.sweep
@@ -188,13 +206,22 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             if solved || iterations % LOOKS_AT_END == 0 {
                 let apart = self.apart::<R>((state, h));
                 report.residual = larger(changes.now, apart);
-                if solved && apart <= enough {
+                let echoes = apart < ROUNDING && apart > ECHO * before;
+                if solved && (apart <= enough || echoes) {
                     return Ok(Ended::Solved(report));
+                }
+                if solved {
+                    before = apart;
                 }
                 if solved || (apart > enough && apart > KNOWN_BETTER * changes.now) {
                     self.start.copy_from_slice(&self.wanted);
                     changes = Changes::default();
                 }
+            }
+            if changes.idle == IDLE && changes.now.is_finite() {
+                self.listen::<R>(system, (state, h));
+                changes.idle += 1;
+                continue;
             }
             if changes.diverge() {
                 report.residual = changes.best;
@@ -204,20 +231,41 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         Ok(Ended::Slow(report))
     }
 
-    /// How far $\pi_0$ is from what the step's end asks for, relative to the momentum.
+    /// Finds what rounding makes of a sweep.
+    fn listen<R: Retraction>(&mut self, system: &C, (state, h): Start<C>) {
+        self.heard = LISTENS_EVERY;
+        self.sweep.listen::<R>(system, (&state.g, state.t, h));
+    }
+
+    /// How far $\pi_0$ is from what the step's end asks for, relative to the momentum, in the kind of coordinates where that is largest. What noise
+    /// explains is none.
     fn apart<R: Retraction>(&mut self, (state, h): Start<C>) -> f64 {
         let Self {
             sweep,
             start,
             wanted,
+            apart: [numbers, parts, sizes],
             ..
         } = &mut *self;
         sweep.end_to_start::<R>(h, &state.mu, wanted);
-        let differences = start.iter().zip(&*wanted).map(|(a, b)| (a - b).abs());
+        let kinds = &sweep.kinds;
+        parts.fill(0.0);
+        sizes.fill(0.0);
         // A body at rest has a momentum only in between.
-        let momentum = sweep.end.momentum.max_magnitude();
-        let size = larger(state.mu.max_magnitude(), momentum);
-        relative(differences.fold(0.0, larger), size)
+        for momentum in [&state.mu, &sweep.end.momentum] {
+            momentum.write(numbers);
+            kinds.raise(sizes, numbers);
+        }
+        for (number, (a, b)) in numbers.iter_mut().zip(start.iter().zip(&*wanted)) {
+            *number = a - b;
+        }
+        kinds.raise(parts, numbers);
+        let noise = sweep.noise_of_momentum(h);
+        let kinds = parts.iter().zip(sizes).zip(noise);
+        kinds.fold(0.0, |found, ((part, size), noise)| {
+            let part = if *part <= noise { 0.0 } else { *part };
+            larger(found, relative(part, *size))
+        })
     }
 
     /// Newton's method on the sweep.
@@ -246,7 +294,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         self.sweep.round(Side::End);
         self.sweep.write(&mut newton.x);
         let (mut last, mut part) = (f64::INFINITY, 1.0);
-        let (mut stale, mut renewed) = (!newton.fits(h), false);
+        let (mut stale, mut renewed, mut heard) = (!newton.fits(h), false, false);
         let (mut report, mut best) = (StepReport::default(), f64::INFINITY);
         for iterations in 1..=MAX_NEWTON {
             self.sweep.read(&newton.x);
@@ -266,6 +314,11 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
                 }
                 self.sweep.end_to_start::<R>(h, &state.mu, &mut self.start);
                 return Ended::Solved(report);
+            }
+            if !heard && change < AT_ROOT && change > ECHO * last {
+                heard = true;
+                self.listen::<R>(system, (state, h));
+                continue;
             }
             // Beyond a change that grows lies any root: so it has to fall, by a part of the correction where not by all.
             if change.is_nan() || change > last.max(AT_ROOT) {

@@ -67,6 +67,10 @@ impl<S: Batch> Stages<S> {
     pub(super) fn values(&self) -> &[S] {
         &self.values
     }
+
+    pub(super) fn items_mut(&mut self) -> impl Iterator<Item = &mut S::Item> {
+        S::items_mut(&mut self.values).iter_mut()
+    }
 }
 
 fn blocks<S: Batch>(stages: usize) -> usize {

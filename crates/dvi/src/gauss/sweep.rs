@@ -9,6 +9,7 @@ use super::stages::{Coefficients, Stages};
 use super::tableau::Tableau;
 use crate::ContinuousSystem;
 use crate::numbers::{larger, relative};
+use crate::sizes::{Kinds, NOISE, shaken};
 
 /// Sweeps that bring guessed velocities to the chart: each leaves about a hundredth of the error.
 const CHART_SWEEPS: usize = 3;
@@ -130,59 +131,71 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     /// $g_k$.
     g: Over<C::Group, S>,
     workspace: C::Workspace<S>,
+    pub(super) kinds: Kinds,
     change: Change<S>,
+    /// What rounding makes of no change, in the rates of each kind; zero where that has not been looked at.
+    noise: Vec<[f64; 2]>,
+    /// How often it has been looked at.
+    heard: u32,
     /// New rates of a block.
     rates: Vec<S>,
 }
 
-/// How much a sweep changes the rates: the largest magnitudes, item by item.
+/// How much a sweep changes the rates: the largest magnitudes of each kind of coordinates, item by item.
 struct Change<S> {
-    c_dot: Largest<S>,
-    pi_dot: Largest<S>,
+    /// Of $\dot c$ and of $\dot\pi$.
+    kinds: Vec<[Largest<S>; 2]>,
     /// Zero, unless a rate is not finite.
     poison: S,
 }
 
 /// Of the changes, and of what they are relative to.
+#[derive(Clone, Copy)]
 struct Largest<S> {
     change: S,
     size: S,
 }
 
 impl<S: Batch> Change<S> {
-    fn none() -> Self {
-        let none = || Largest {
+    fn new(kinds: usize) -> Self {
+        let none = Largest {
             change: S::zero(),
             size: S::zero(),
         };
         Self {
-            c_dot: none(),
-            pi_dot: none(),
+            kinds: vec![[none; 2]; kinds],
             poison: S::zero(),
         }
     }
 
-    /// Takes over new rates, and how they differ from the old ones.
     #[inline(always)]
-    fn replace(
-        &mut self,
-        of: fn(&mut Self) -> &mut Largest<S>,
-        old: &mut [S],
-        new: &[S],
-        sizes: &[S],
-    ) {
-        let Largest {
-            mut change,
-            mut size,
-        } = *of(self);
+    fn clear(&mut self) {
+        let none = Largest {
+            change: S::zero(),
+            size: S::zero(),
+        };
+        self.kinds.fill([none; 2]);
+        self.poison = S::zero();
+    }
+
+    /// Takes over new rates, the first or the second, and how they differ from the old ones.
+    #[inline(always)]
+    fn replace(&mut self, (kinds, which): (&Kinds, usize), old: &mut [S], new: &[S], sizes: &[S]) {
         let mut poison = self.poison;
-        for ((old, new), of) in old.iter_mut().zip(new).zip(sizes) {
-            change = change.max((*new - *old).abs());
-            size = size.max(of.abs());
-            poison = new.mul_add(S::zero(), poison);
-            *old = *new;
+        for (run, kind) in &kinds.runs {
+            let Largest {
+                mut change,
+                mut size,
+            } = self.kinds[*kind][which];
+            let (old, run) = (&mut old[run.clone()], run.clone());
+            for ((old, new), of) in old.iter_mut().zip(&new[run.clone()]).zip(&sizes[run]) {
+                change = change.max((*new - *old).abs());
+                size = size.max(of.abs());
+                poison = new.mul_add(S::zero(), poison);
+                *old = *new;
+            }
+            self.kinds[*kind][which] = Largest { change, size };
         }
-        *of(self) = Largest { change, size };
         self.poison = poison;
     }
 }
@@ -192,6 +205,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         let (stages, dim) = (tableau.nodes.len(), g.zero_dual().dim());
         let zero = Stages::new(stages, dim);
         let lifted = C::Group::convert::<S::Item, S>(g, S::splat);
+        let kinds = Kinds::of(g);
         Self {
             stages,
             coefficients: Coefficients::new(tableau),
@@ -211,7 +225,10 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             blocks: (0..zero.blocks()).map(|_| Block::new(&lifted)).collect(),
             workspace: system.workspace::<S>(&lifted),
             g: lifted,
-            change: Change::none(),
+            change: Change::new(kinds.count),
+            noise: vec![[0.0; 2]; kinds.count],
+            heard: 0,
+            kinds,
             rates: vec![S::zero(); dim],
         }
     }
@@ -257,7 +274,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         S::run(
             #[inline(always)]
             || {
-                self.change = Change::none();
+                self.change.clear();
                 for k in 0..self.c.blocks() {
                     self.place_coordinates(h, k);
                     let forward = &self.coefficients.forward.high;
@@ -343,7 +360,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         S::run(
             #[inline(always)]
             || {
-                self.change = Change::none();
+                self.change.clear();
                 for k in 0..self.c.blocks() {
                     self.evaluate_block::<R>(system, time, k);
                 }
@@ -380,14 +397,10 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         block.rates::<R>();
         let (change, rates) = (&mut self.change, &mut self.rates);
         block.c_dot.write(rates);
-        change.replace(|c| &mut c.c_dot, self.c_dot.block_mut(k), rates, rates);
+        change.replace((&self.kinds, 0), self.c_dot.block_mut(k), rates, rates);
         block.pi_dot.write(rates);
-        change.replace(
-            |c| &mut c.pi_dot,
-            self.pi_dot.block_mut(k),
-            rates,
-            self.pi.block(k),
-        );
+        let momenta = self.pi.block(k);
+        change.replace((&self.kinds, 1), self.pi_dot.block_mut(k), rates, momenta);
     }
 
     /// $P$ from the forces.
@@ -536,21 +549,73 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         finite(&self.xi) && finite(&self.tau)
     }
 
-    /// The largest change of the rates in the last sweep: of $\dot c$ relative to it, of $h \dot\pi$ to the momentum.
+    /// The largest change of the rates in the last sweep, in the kind of coordinates where it is largest: of $\dot c$ relative to it, of
+    /// $h \dot\pi$ to the momentum. A change that noise explains is none.
     pub(super) fn change(&self, h: f64) -> f64 {
-        let Change {
-            c_dot,
-            pi_dot,
-            poison,
-        } = &self.change;
         // What is not a number is in `poison`; one instruction a number, where `larger` takes three.
         let largest = |x: &S| {
             let items = S::items(core::slice::from_ref(x)).iter();
             items.fold(0.0, |a, b| if *b > a { *b } else { a })
         };
-        let spoilt = S::items(core::slice::from_ref(poison)).iter().sum::<f64>();
-        let c = relative(largest(&c_dot.change), largest(&c_dot.size));
-        let pi = relative(largest(&pi_dot.change) * h.abs(), largest(&pi_dot.size));
-        larger(c, pi) + spoilt
+        let kinds = self.change.kinds.iter().zip(&self.noise);
+        let found = kinds.fold(0.0, |found, ([c_dot, pi_dot], noise)| {
+            let change = |of: &Largest<S>, noise: f64| {
+                let change = largest(&of.change);
+                if change <= NOISE * noise { 0.0 } else { change }
+            };
+            let c = relative(change(c_dot, noise[0]), largest(&c_dot.size));
+            let pi = relative(change(pi_dot, noise[1]) * h.abs(), largest(&pi_dot.size));
+            larger(found, larger(c, pi))
+        });
+        let poison = core::slice::from_ref(&self.change.poison);
+        found + S::items(poison).iter().sum::<f64>()
+    }
+
+    /// Whether all rates of the last evaluation are finite.
+    pub(super) fn has_rates(&self) -> bool {
+        let poison = core::slice::from_ref(&self.change.poison);
+        S::items(poison).iter().all(|x| *x == 0.0)
+    }
+
+    /// Whether a stage is where the system is not defined.
+    pub(super) fn leaves_domain(&self, system: &C, (t, h): (f64, f64)) -> bool {
+        let outside = |k: usize, lane: usize| {
+            let item = |x: S| S::items(&[x])[lane];
+            let g = C::Group::convert::<S, f64>(&self.blocks[k].g, item);
+            !system.is_defined(t + h * item(self.coefficients.nodes[k]), &g)
+        };
+        (0..self.blocks.len()).any(|k| (0..S::ITEMS).any(|lane| outside(k, lane)))
+    }
+
+    /// How much of a momentum of each kind rounding makes in a step, as far as that has been looked at.
+    pub(super) fn noise_of_momentum(&self, h: f64) -> impl Iterator<Item = f64> + '_ {
+        self.noise.iter().map(move |[_, pi]| NOISE * h.abs() * pi)
+    }
+
+    /// Finds what rounding makes of the rates at the stages' places: how much these change where every number that they follow from moves in
+    /// its last place. They stay as they are then.
+    #[cold]
+    pub(super) fn listen<R: Retraction>(&mut self, system: &C, (g, t, h): (&C::Group, f64, f64)) {
+        self.heard += 1;
+        let time = self.heard;
+        for places in [&mut self.c, &mut self.pi] {
+            places.items_mut().for_each(|x| *x = shaken(*x, time));
+        }
+        self.start_at(&C::Group::convert::<f64, f64>(g, |x| shaken(x, time)));
+        self.evaluate::<R>(system, (t, h));
+        self.start_at(g);
+        let largest = |x: &S| {
+            let items = S::items(core::slice::from_ref(x)).iter();
+            items.fold(0.0, |a, b| larger(a, *b))
+        };
+        for (noise, changes) in self.noise.iter_mut().zip(&self.change.kinds) {
+            *noise = [0, 1].map(|which| larger(noise[which], largest(&changes[which].change)));
+        }
+    }
+
+    /// Forgets what rounding makes.
+    pub(super) fn forget_noise(&mut self) {
+        self.heard = 0;
+        self.noise.fill([0.0; 2]);
     }
 }

@@ -3,6 +3,7 @@
 use lie::{RealGroup, VectorSpace};
 
 use crate::State;
+use crate::sizes::Kinds;
 
 /// Steps between corrections of the rounding that moves the configuration off its group.
 ///
@@ -28,11 +29,15 @@ pub(super) struct Update<G: RealGroup> {
     steps: u64,
     known: bool,
     far: bool,
+    kinds: Kinds,
+    /// The momentum as numbers, and the largest of each kind, in the frame of the identity and in the body's.
+    numbers: Vec<f64>,
+    sizes: [Vec<f64>; 2],
 }
 
 impl<G: RealGroup> Update<G> {
     pub(super) fn new(g: &G) -> Self {
-        let zero = g.zero_dual();
+        let (zero, kinds) = (g.zero_dual(), Kinds::of(g));
         let after = State {
             t: 0.0,
             g: g.clone(),
@@ -42,10 +47,13 @@ impl<G: RealGroup> Update<G> {
             carry: g.zero_carry(),
             spatial: zero.clone(),
             spatial_carry: zero.clone(),
-            increment: zero,
+            increment: zero.clone(),
             steps: 0,
             known: false,
             far: false,
+            numbers: vec![0.0; zero.dim()],
+            sizes: [0, 1].map(|_| vec![0.0; kinds.count]),
+            kinds,
             after,
         }
     }
@@ -80,13 +88,22 @@ impl<G: RealGroup> Update<G> {
         self.after
             .g
             .coadjoint_into(&self.spatial, &mut self.after.mu);
-        let (spatial, here) = (self.spatial.max_magnitude(), self.after.mu.max_magnitude());
-        self.far = spatial > FAR * here;
+        self.far = self.is_far();
         if self.far {
             self.after.mu.copy_from(transported);
         }
         self.known = self.after.g.is_finite() && self.after.mu.max_magnitude().is_finite();
         self.known.then_some(&self.after)
+    }
+
+    fn is_far(&mut self) -> bool {
+        for (sizes, momentum) in self.sizes.iter_mut().zip([&self.spatial, &self.after.mu]) {
+            momentum.write(&mut self.numbers);
+            sizes.fill(0.0);
+            self.kinds.raise(sizes, &self.numbers);
+        }
+        let [spatial, here] = &self.sizes;
+        spatial.iter().zip(here).any(|(a, b)| *a > FAR * b)
     }
 
     fn begin_momentum(&mut self, state: &State<G>) {

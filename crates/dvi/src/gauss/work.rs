@@ -11,6 +11,7 @@ use super::solve::{Failure, Limits, Method, Start};
 use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use super::update::Update;
+use crate::sizes::Kinds;
 use crate::{ContinuousSystem, State, StepReport, Variation};
 
 type Dual<C> = <<C as ContinuousSystem>::Group as LieGroup>::Dual;
@@ -24,6 +25,10 @@ pub(super) struct Work<C: ContinuousSystem, S: Batch<Item = f64>> {
     pub(super) start: Vec<f64>,
     pub(super) wanted: Vec<f64>,
     pub(super) drift: Vec<f64>,
+    /// Storage to compare the first two: their difference, and the largest numbers of each kind.
+    pub(super) apart: [Vec<f64>; 3],
+    /// Steps for which the noise stays as it was found.
+    pub(super) heard: u32,
     /// Made when first needed.
     pub(super) newton: Option<SweepNewton<C>>,
     linearised: Option<SweepNewton<C>>,
@@ -33,7 +38,7 @@ pub(super) struct Work<C: ContinuousSystem, S: Batch<Item = f64>> {
 
 impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     fn new(system: &C, tableau: &Tableau, g: &C::Group) -> Self {
-        let dim = g.zero_dual().dim();
+        let (dim, kinds) = (g.zero_dual().dim(), Kinds::of(g).count);
         Self {
             sweep: Sweep::new(system, tableau, g),
             predictor: Predictor::new(tableau.nodes.len(), dim),
@@ -41,6 +46,8 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             start: vec![0.0; dim],
             wanted: vec![0.0; dim],
             drift: vec![0.0; dim],
+            apart: [dim, kinds, kinds].map(|n| vec![0.0; n]),
+            heard: 0,
             newton: None,
             linearised: None,
             long_steps: 0,
@@ -70,8 +77,8 @@ pub(super) trait Stepper<C: ContinuousSystem>: Send + Sync {
     /// Carries variations over the step that was solved.
     fn carry(&mut self, method: Method<C>, start: Start<C>, variations: &mut [Variation<C::Group>]);
 
-    /// Takes the step that was solved; `None` where a number is not finite.
-    fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Option<()>;
+    /// Takes the step that was solved; `None` where a number is not finite, or where the system is not defined.
+    fn accept(&mut self, system: &C, state: &mut State<C::Group>, h: f64) -> Option<()>;
 }
 
 /// The steps in the chart of `R`.
@@ -121,7 +128,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
         linearised.carry::<R, S>(system, start, sweep, variations);
     }
 
-    fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Option<()> {
+    fn accept(&mut self, system: &C, state: &mut State<C::Group>, h: f64) -> Option<()> {
         let Work {
             sweep,
             update,
@@ -135,7 +142,12 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
         for (drift, start) in drift.iter_mut().zip(start) {
             *drift = *start - *drift;
         }
-        state.copy_from(update.advance(state, h, (f, impulse, mu))?);
+        let after = update.advance(state, h, (f, impulse, mu))?;
+        if !system.is_defined(after.t, &after.g) {
+            update.forget();
+            return None;
+        }
+        state.copy_from(after);
         predictor.record(h, sweep);
         Some(())
     }

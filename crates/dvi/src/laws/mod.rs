@@ -48,7 +48,7 @@ mod symmetry;
 
 use thiserror::Error;
 
-use crate::newton::is_degenerate;
+use crate::newton::degenerate;
 use crate::{DiscreteLagrangian, State, StepError, Variational};
 use compare::Checker;
 
@@ -149,7 +149,7 @@ pub fn check<L: DiscreteLagrangian>(
     let mut checker = Checker::default();
     for state in states {
         derivatives::check(&mut checker, lagrangian, state, h)?;
-        if is_degenerate(lagrangian, state, h) {
+        if degenerate(lagrangian, state, h).is_some() {
             let case = format!("{state:?}");
             return Err(LawError::Degenerate { case });
         }

@@ -210,6 +210,9 @@ impl Integrator for Rederived {
     fn is_symplectic(&self) -> bool {
         true
     }
+    fn reset(&mut self) {
+        self.0.reset();
+    }
     fn step(&mut self, state: &mut State<SO3>, h: f64) -> Result<StepReport, StepError> {
         let f = self.0.displacement(state, h)?;
         state.mu = legendre_plus(self.0.lagrangian(), state.t, &state.g, &f, h);
@@ -303,11 +306,14 @@ fn a_refused_step_is_passed_on_and_the_degenerate_is_named() {
     let Err(LawError::Step(error)) = verdict else {
         panic!("{verdict:?}");
     };
-    assert!(error.to_string().contains("singular"), "{error}");
-    let error = Gauss::<_, 2>::new(Needle.hamiltonian())
+    let error_of_gauss = Gauss::<_, 2>::new(Needle.hamiltonian())
         .step(&mut top(), 0.05)
         .unwrap_err();
-    assert!(error.to_string().contains("singular"), "{error}");
+    assert_eq!(error_of_gauss, error);
+    assert!(
+        matches!(error, StepError::Degenerate { coordinate: 2, .. }),
+        "{error}"
+    );
 }
 
 /// Legendre's transform of a state at rest has no size to divide by.

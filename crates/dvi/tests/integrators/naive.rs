@@ -42,6 +42,8 @@ impl Integrator for Naive {
     fn is_symplectic(&self) -> bool {
         false
     }
+    fn reset(&mut self) {}
+
     fn step(&mut self, state: &mut State<SO3>, h: f64) -> Result<StepReport, StepError> {
         let system = Top.hamiltonian();
         let mut workspace = system.workspace::<f64>(&state.g);

@@ -93,6 +93,10 @@ impl Integrator for ClassicalRungeKutta {
         false
     }
 
+    fn reset(&mut self) {
+        self.steps = 0;
+    }
+
     fn step(&mut self, state: &mut State<Configuration>, h: f64) -> Result<StepReport, StepError> {
         let fits = self.model.fits(&state.g) && self.start.len() == raw::length(state);
         check(state, h, self.steps, fits)?;

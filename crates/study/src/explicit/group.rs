@@ -134,6 +134,10 @@ impl<S: ContinuousSystem> Integrator for GroupRungeKutta<S> {
         false
     }
 
+    fn reset(&mut self) {
+        (self.steps, self.storage) = (0, None);
+    }
+
     fn step(&mut self, state: &mut State<S::Group>, h: f64) -> Result<StepReport, StepError> {
         check(state, h, self.steps, self.system.fits(&state.g))?;
         let storage = match self.storage.take() {
@@ -143,7 +147,8 @@ impl<S: ContinuousSystem> Integrator for GroupRungeKutta<S> {
         let storage = self.storage.insert(storage);
         storage.step(&self.system, self.scheme, state, h);
         let end = &mut storage.stage;
-        if !(end.g.is_finite() && end.mu.max_magnitude().is_finite()) {
+        let finite = end.g.is_finite() && end.mu.max_magnitude().is_finite();
+        if !(finite && self.system.is_defined(state.t + h, &end.g)) {
             let (step, t) = (self.steps, state.t);
             return Err(StepError::NotFinite { step, t, h });
         }

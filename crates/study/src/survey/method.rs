@@ -59,6 +59,10 @@ impl<G: RealGroup> Integrator for Method<G> {
     fn peek(&mut self, state: &State<G>, h: f64) -> Result<State<G>, StepError> {
         self.0.peek(state, h)
     }
+
+    fn reset(&mut self) {
+        self.0.reset();
+    }
 }
 
 impl<G: RealGroup> FirstVariation for Method<G> {

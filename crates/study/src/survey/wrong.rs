@@ -109,6 +109,10 @@ impl<L: DiscreteLagrangian> Integrator for Rederived<L> {
         true
     }
 
+    fn reset(&mut self) {
+        self.integrator.reset();
+    }
+
     fn step(&mut self, state: &mut State<L::Group>, h: f64) -> Result<StepReport, StepError> {
         let f = self.integrator.displacement(state, h)?;
         state.mu = legendre_plus(self.integrator.lagrangian(), state.t, &state.g, &f, h);

@@ -1,0 +1,440 @@
+//! How the momentum balance of a step is solved, and which of its roots is taken.
+
+use lie::{LieGroup, RealGroup, Retraction, VectorSpace};
+
+use crate::balance::Balance;
+use crate::numbers::larger;
+use crate::sizes::{Relative, Sizes, shake, shaken};
+use crate::solver::{Algebra, Dual, StepSolver};
+use crate::warm_start::WarmStart;
+use crate::{DiscreteLagrangian, State, StepReport};
+
+/// Evaluations of the balance before a step is given up.
+const MAX_ITERATIONS: u32 = 60;
+/// A residual below this is one that only rounding keeps from the tolerance.
+const ROUNDING: f64 = 1e-12;
+/// A residual that shrinks by less than this factor, in one iteration and in two, stands.
+const STANDS: f64 = 0.9;
+/// How often rounding is measured in one iteration, at most: it costs two evaluations.
+const MEASUREMENTS: u32 = 4;
+/// Iterations that bring the cyclic equations from the tolerance to rounding.
+const CYCLIC_ITERATIONS: u32 = 3;
+/// A correction of the cyclic coordinates below this share of the displacement is rounding.
+const CYCLIC_NOISE: f64 = 1e3 * f64::EPSILON;
+/// A residual below this is at a root; it may rise by rounding.
+const AT_ROOT: f64 = 1e-6;
+/// The shortest part of a correction that is tried where the whole makes the residual grow.
+const SHORTEST_CORRECTION: f64 = 1e-2;
+/// How far a root whose matrix has turned an even number of pivots may lie from the one before, continued in proportion to $h$.
+const NEAR: f64 = 0.25;
+/// The shortest part of a step that its solution is followed by.
+const SHORTEST_PART: f64 = 1.0 / 64.0;
+
+/// Storage of the steps.
+pub(super) struct Work<L: DiscreteLagrangian, M> {
+    pub(super) solver: M,
+    pub(super) balance: Balance<L::Group, f64>,
+    /// Of the coordinates that are not solved exactly: those may have another unit, and be larger by far.
+    sizes: Sizes,
+    pub(super) warm: WarmStart,
+    pub(super) c: Algebra<L>,
+    delta: Algebra<L>,
+    /// Those of a guess or of a solution.
+    pub(super) coordinates: Vec<f64>,
+    /// The solution of a part of the step.
+    reached: Algebra<L>,
+    pub(super) next: L::Group,
+    /// Made when first needed.
+    shaken: Option<Shaken<L::Group>>,
+}
+
+/// Storage to see what rounding makes of the balance.
+struct Shaken<G: RealGroup> {
+    state: State<G>,
+    c: G::Algebra,
+    residual: G::Dual,
+}
+
+/// When a step is solved.
+#[derive(Clone, Copy)]
+pub(super) struct Goal {
+    /// The largest residual, relative to the momenta of its block.
+    pub(super) tolerance: f64,
+    /// Whether a residual that rounding explains is enough.
+    pub(super) or_rounding: bool,
+}
+
+/// What an iteration has led to.
+pub(super) struct Ended {
+    pub(super) report: StepReport,
+    pub(super) at: End,
+    /// Pivots whose sign has turned on the way from the inertia.
+    pub(super) turns: usize,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum End {
+    /// The motion's solution.
+    Solved,
+    /// A solution of another branch.
+    AnotherBranch,
+    /// No solution.
+    Nowhere,
+    /// Nothing: the first evaluation was not finite.
+    NotFinite,
+}
+
+/// The residuals of the last two iterates.
+struct Progress {
+    last: Relative,
+    before: Relative,
+}
+
+impl Progress {
+    const NONE: Self = Self {
+        last: Relative::NONE,
+        before: Relative::NONE,
+    };
+
+    /// Over two iterations: the contraction's eigenvalues are complex, and single ones jump.
+    fn is_slow(&self, now: Relative, slow: f64) -> bool {
+        let (last, before) = (self.last.by_kind, self.before.by_kind);
+        match before.is_finite() {
+            true => now.by_kind > slow * last && now.by_kind > slow * slow * before,
+            false => now.by_kind > last,
+        }
+    }
+
+    /// Whether no block's residual shrinks any more.
+    fn stands(&self, now: Relative) -> bool {
+        let falls =
+            |of: fn(&Relative) -> f64| of(&now) <= STANDS * of(&self.last).min(of(&self.before));
+        now.by_kind < AT_ROOT && !falls(|r| r.by_kind) && !falls(|r| r.by_block)
+    }
+
+    fn push(&mut self, now: Relative) {
+        (self.last, self.before) = (now, self.last);
+    }
+}
+
+/// Whether rounding alone may be what keeps a residual from the tolerance.
+pub(super) fn is_rounding(residual: f64, tolerance: f64) -> bool {
+    residual < ROUNDING.max(1e3 * tolerance)
+}
+
+impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
+    pub(super) fn new(lagrangian: &L, g: &L::Group) -> Self {
+        let (c, solver) = (g.zero_algebra(), M::allocate(lagrangian, g));
+        Self {
+            balance: Balance::new(g),
+            sizes: Sizes::new(g, solver.exact(lagrangian)),
+            warm: WarmStart::new(g),
+            coordinates: vec![0.0; c.dim()],
+            delta: c.clone(),
+            reached: c.clone(),
+            c,
+            next: g.clone(),
+            shaken: None,
+            solver,
+        }
+    }
+
+    /// Forgets what steps before have left, where it may be what made a step fail.
+    pub(super) fn forget(&mut self) {
+        self.warm.forget();
+        self.solver.forget();
+    }
+
+    /// Follows the solution from $h = 0$, where it is no displacement: in one go, or else in parts. The balance of a long step has many
+    /// roots, and this one is the motion's.
+    pub(super) fn follow<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        goal: Goal,
+    ) -> Ended {
+        let mut whole = self.follow_to::<R>(lagrangian, (state, h), [0.0, 1.0], goal);
+        let missed = match whole.at {
+            End::AnotherBranch => true,
+            End::Nowhere => !is_rounding(whole.report.residual, goal.tolerance),
+            End::Solved | End::NotFinite => false,
+        };
+        if !missed {
+            return whole;
+        }
+        let (mut reached, mut part) = (0.0, 0.5);
+        while part >= SHORTEST_PART {
+            let next = (reached + part).min(1.0);
+            let mut ended = self.follow_to::<R>(lagrangian, (state, h), [reached, next], goal);
+            whole.report.iterations += ended.report.iterations;
+            if ended.at != End::Solved {
+                part *= 0.5;
+                continue;
+            }
+            if next == 1.0 {
+                ended.report.iterations = whole.report.iterations;
+                return ended;
+            }
+            self.reached.copy_from(&self.c);
+            (reached, part) = (next, 2.0 * part);
+        }
+        whole
+    }
+
+    /// Solves for the share `next` of a step from the solution for the share `reached`.
+    fn follow_to<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        [reached, next]: [f64; 2],
+        goal: Goal,
+    ) -> Ended {
+        if reached == 0.0 {
+            self.c.set_zero();
+        } else {
+            self.c.copy_from(&self.reached);
+            self.c.scale(next / reached);
+        }
+        self.solver.forget();
+        self.solver.begin(lagrangian, state, next * h);
+        self.c.write(&mut self.coordinates);
+        let mut ended = self.iterate::<R>(lagrangian, (state, next * h), goal);
+        // Pivots turn in pairs where none of them is a fold; and where two bodies are past theirs.
+        let followed = reached > 0.0 && ended.turns.is_multiple_of(2) && self.is_near();
+        if ended.at == End::Solved && ended.turns > 0 && !followed {
+            ended.at = End::AnotherBranch;
+        }
+        ended
+    }
+
+    /// Whether the root is near where the iteration has started.
+    fn is_near(&mut self) -> bool {
+        self.delta.read(&self.coordinates);
+        self.sizes.set_scales([&self.delta; 3]);
+        self.delta.add_scaled(-1.0, &self.c);
+        self.sizes.relative(&self.delta).by_kind <= NEAR
+    }
+
+    /// Iterates from the coordinates in `c`, which `coordinates` are too, until the goal is reached. With the exact matrix the residual has to
+    /// fall, by a part of the correction where not by all: else the iteration leads anywhere.
+    pub(super) fn iterate<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        goal: Goal,
+    ) -> Ended {
+        let ended = |at, iterations, residual| Ended {
+            report: StepReport {
+                iterations,
+                residual,
+            },
+            at,
+            turns: 0,
+        };
+        let [mut first, mut best] = [f64::INFINITY; 2];
+        let mut progress = Progress::NONE;
+        let (mut exact, mut part, mut measured) = (false, 1.0, 0);
+        for iterations in 1..=MAX_ITERATIONS {
+            self.evaluate::<R>(lagrangian, state, h);
+            if iterations == 1 {
+                self.set_scales(state);
+            }
+            let now = self.residual();
+            let residual = now.by_kind;
+            let slow = progress.is_slow(now, M::SLOW);
+            let mut solved = now.by_block <= goal.tolerance;
+            if !solved && goal.or_rounding && measured < MEASUREMENTS && progress.stands(now) {
+                measured += 1;
+                solved = self.is_noise::<R>(lagrangian, (state, h), (goal.tolerance, measured));
+            }
+            if solved && let Some(ended) = self.finish::<R>(lagrangian, (state, h), goal, now) {
+                return ended.after(iterations);
+            }
+            if iterations == 1 {
+                first = residual;
+            }
+            if !first.is_finite() {
+                return ended(End::NotFinite, iterations, best);
+            }
+            best = best.min(residual);
+            let falls = residual <= progress.last.by_kind.max(AT_ROOT);
+            if exact && !falls && part > SHORTEST_CORRECTION {
+                part *= 0.5;
+                self.c.add_scaled(part, &self.delta);
+                continue;
+            }
+            if exact && !falls {
+                return ended(End::Nowhere, iterations, best);
+            }
+            part = 1.0;
+            if self.solver.is_stale() || slow || !residual.is_finite() {
+                // Where the steps before have led astray, the exact matrix is that of the start.
+                let astray = residual.is_nan() || residual > first.max(AT_ROOT);
+                if astray {
+                    self.delta.read(&self.coordinates);
+                }
+                let at = if astray { &self.delta } else { &self.c };
+                let renewed = self.solver.renew::<R>(lagrangian, state, h, at);
+                exact |= renewed;
+                if renewed && astray {
+                    core::mem::swap(&mut self.c, &mut self.delta);
+                    progress = Progress::NONE;
+                    continue;
+                }
+            }
+            if !residual.is_finite() {
+                return ended(End::Nowhere, iterations, best);
+            }
+            progress.push(now);
+            self.solver
+                .solve(lagrangian, &self.balance.residual, &mut self.delta);
+            if self.is_settled(goal.tolerance)
+                && let Some(ended) = self.finish::<R>(lagrangian, (state, h), goal, now)
+            {
+                return ended.after(iterations);
+            }
+            self.c.add_scaled(-1.0, &self.delta);
+        }
+        ended(End::Nowhere, MAX_ITERATIONS, best)
+    }
+
+    /// The end at a residual that is good enough; none where solving the cyclic equations on has made it worse.
+    fn finish<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        goal: Goal,
+        found: Relative,
+    ) -> Option<Ended> {
+        if self.solver.is_stale() {
+            self.solver.renew::<R>(lagrangian, state, h, &self.c);
+        }
+        let iterations = self.finish_cyclic::<R>(lagrangian, state, h);
+        if self.sizes.have_no_scale() {
+            // Only the cyclic coordinates have moved, and the others follow.
+            self.set_scales(state);
+        }
+        let now = self.residual();
+        let holds = now.by_block <= goal.tolerance || now.by_kind <= 2.0 * found.by_kind;
+        // The iteration contracts: the solution's matrix has the signs of the one that it is found by.
+        (iterations == 0 || holds).then(|| Ended {
+            report: StepReport {
+                iterations,
+                residual: now.by_kind,
+            },
+            at: End::Solved,
+            turns: self.solver.turns(),
+        })
+    }
+
+    /// The momenta in the balance as it is evaluated first: before the step, after it, and what a force adds to either.
+    ///
+    /// Not those at later iterates: where these go astray momenta grow, and any residual is small beside them.
+    fn set_scales(&mut self, state: &State<L::Group>) {
+        let Balance {
+            transported,
+            derivatives,
+            ..
+        } = &self.balance;
+        self.sizes
+            .set_scales([&state.mu, transported, &derivatives.d_f]);
+    }
+
+    /// The residual relative to the momenta.
+    #[inline(always)]
+    fn residual(&mut self) -> Relative {
+        self.sizes.relative(&self.balance.residual)
+    }
+
+    /// Whether what is left asks for no correction beside the displacement, in any block.
+    #[inline(always)]
+    fn is_settled(&mut self, tolerance: f64) -> bool {
+        let corrections = (&self.delta, &self.c);
+        self.sizes
+            .are_settled(&self.balance.residual, corrections, tolerance)
+    }
+
+    /// Whether the residual is no more than rounding makes of it: it is compared with that of arguments which differ in their last place.
+    #[cold]
+    fn is_noise<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        (tolerance, time): (f64, u32),
+    ) -> bool {
+        let storage = || Shaken {
+            state: state.clone(),
+            c: self.c.clone(),
+            residual: self.balance.residual.clone(),
+        };
+        let mut other = self.shaken.take().unwrap_or_else(storage);
+        L::Group::convert_into::<f64, f64>(&state.g, |x| shaken(x, time), &mut other.state.g);
+        other.state.t = state.t;
+        other.state.mu.copy_from(&state.mu);
+        other.c.copy_from(&self.c);
+        other.residual.copy_from(&self.balance.residual);
+        shake(&mut other.state.mu, time);
+        shake(&mut self.c, time);
+        self.evaluate::<R>(lagrangian, &other.state, h);
+        other.residual.add_scaled(-1.0, &self.balance.residual);
+        self.sizes.raise_noise(&other.residual);
+        self.c.copy_from(&other.c);
+        self.evaluate::<R>(lagrangian, state, h);
+        self.shaken = Some(other);
+        self.is_settled(tolerance)
+    }
+
+    /// Evaluates the balance at `c`.
+    #[inline(always)]
+    fn evaluate<R: Retraction>(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) {
+        self.balance.retract::<R>(&self.c);
+        let Balance { f, derivatives, .. } = &mut self.balance;
+        self.solver
+            .derivatives(lagrangian, (state, h), f, &mut self.c, derivatives);
+        self.balance.transport(&state.mu);
+    }
+
+    /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance.
+    fn finish_cyclic<R: Retraction>(
+        &mut self,
+        lagrangian: &L,
+        state: &State<L::Group>,
+        h: f64,
+    ) -> u32 {
+        let cyclic = lagrangian.cyclic();
+        for more in 0..=CYCLIC_ITERATIONS {
+            if more == CYCLIC_ITERATIONS {
+                let largest = |x: &Algebra<L>| {
+                    cyclic
+                        .clone()
+                        .fold(0.0, |max, i| larger(max, x.get(i).abs()))
+                };
+                if largest(&self.delta) <= CYCLIC_NOISE * largest(&self.c) {
+                    return more;
+                }
+                // The matrix is of an attitude too far from this one.
+                self.solver.renew::<R>(lagrangian, state, h, &self.c);
+            }
+            let left: &Dual<L> = &self.balance.residual;
+            let solved = cyclic.clone().all(|i| left.get(i) == 0.0);
+            if solved
+                || !self
+                    .solver
+                    .solve_cyclic(left, cyclic.clone(), &mut self.delta)
+            {
+                return more;
+            }
+            self.c.add_scaled(-1.0, &self.delta);
+            self.evaluate::<R>(lagrangian, state, h);
+        }
+        CYCLIC_ITERATIONS + 1
+    }
+}
+
+impl Ended {
+    /// The same, after so many iterations before.
+    fn after(mut self, iterations: u32) -> Self {
+        self.report.iterations += iterations;
+        self
+    }
+}
