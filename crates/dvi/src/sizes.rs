@@ -135,19 +135,13 @@ impl Sizes {
         }
     }
 
-    /// Whether each block of a residual is within the tolerance, or is noise, or asks for a correction that is within the tolerance of the
-    /// whole displacement.
-    pub(crate) fn are_settled<R, C>(
-        &mut self,
-        residual: &R,
-        (correction, whole): (&C, &C),
+    /// Whether each block of the vector that was [measured](Self::relative) last is within the tolerance, or is noise, or asks for a correction
+    /// that is no more than that of the whole displacement.
+    pub(crate) fn are_settled<V: VectorSpace<Scalar = f64>>(
+        &self,
+        (correction, whole): (&V, &V),
         tolerance: f64,
-    ) -> bool
-    where
-        R: VectorSpace<Scalar = f64>,
-        C: VectorSpace<Scalar = f64>,
-    {
-        self.measure(residual);
+    ) -> bool {
         let settled = |block: &Block| {
             block.size <= larger(tolerance * block.scale, NOISE * block.noise) || {
                 let [part, all] = [correction, whole].map(|x| {

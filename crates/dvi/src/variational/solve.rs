@@ -21,6 +21,8 @@ const MEASUREMENTS: u32 = 4;
 const CYCLIC_ITERATIONS: u32 = 3;
 /// A correction of the cyclic coordinates below this share of the displacement is rounding.
 const CYCLIC_NOISE: f64 = 1e3 * f64::EPSILON;
+/// A residual below this may ask for no correction.
+const NEARLY: f64 = 1e-10;
 /// A residual below this is at a root; it may rise by rounding.
 const AT_ROOT: f64 = 1e-6;
 /// The shortest part of a correction that is tried where the whole makes the residual grow.
@@ -288,7 +290,8 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             progress.push(now);
             self.solver
                 .solve(lagrangian, &self.balance.residual, &mut self.delta);
-            if self.is_settled(goal.tolerance)
+            if residual < NEARLY
+                && self.is_settled(goal.tolerance)
                 && let Some(ended) = self.finish::<R>(lagrangian, (state, h), goal, now)
             {
                 return ended.after(iterations);
@@ -348,10 +351,8 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
 
     /// Whether what is left asks for no correction beside the displacement, in any block.
     #[inline(always)]
-    fn is_settled(&mut self, tolerance: f64) -> bool {
-        let corrections = (&self.delta, &self.c);
-        self.sizes
-            .are_settled(&self.balance.residual, corrections, tolerance)
+    fn is_settled(&self, tolerance: f64) -> bool {
+        self.sizes.are_settled((&self.delta, &self.c), tolerance)
     }
 
     /// Whether the residual is no more than rounding makes of it: it is compared with that of arguments which differ in their last place.
@@ -381,6 +382,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         self.c.copy_from(&other.c);
         self.evaluate::<R>(lagrangian, state, h);
         self.shaken = Some(other);
+        self.residual();
         self.is_settled(tolerance)
     }
 
