@@ -81,8 +81,7 @@ impl Args {
             });
         };
         let _spinner = progress::waiting("choosing stages and step");
-        let model = &loaded.smallest.model;
-        let pilot = accuracy::pilot(model, &loaded.start, self.until, accuracy)?;
+        let pilot = accuracy::pilot(&loaded.smallest, self.until, accuracy)?;
         Ok(Chosen {
             method: accuracy::method(&pilot),
             step: pilot.h,
@@ -91,7 +90,7 @@ impl Args {
     }
 
     fn integrator(&self, loaded: &Loaded, chosen: &Chosen) -> BoxedIntegrator<Configuration> {
-        let smallest = loaded.smallest.model.clone();
+        let smallest = &loaded.smallest;
         match &chosen.pilot {
             Some(pilot) => accuracy::integrator(smallest, pilot),
             None if self.full => {

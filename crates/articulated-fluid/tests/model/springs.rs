@@ -25,7 +25,7 @@ proptest! {
         const STEP: f64 = 1e-5;
         let sample = at_rest(sample);
         let Sample { model, g, .. } = &sample;
-        let (_, tau) = velocity_and_force::<f64, _>(model, g, &sample.mu());
+        let (_, tau) = velocity_and_force::<f64>(model, g, &sample.mu());
         let slope = |i: usize| {
             let [ahead, back] = [STEP, -STEP].map(|size| {
                 let mut step = g.zero_algebra();
@@ -42,7 +42,7 @@ proptest! {
     #[test]
     fn the_torques_balance(sample in any_sample()) {
         let sample = at_rest(sample);
-        let (_, tau) = velocity_and_force::<f64, _>(&sample.model, &sample.g, &sample.mu());
+        let (_, tau) = velocity_and_force::<f64>(&sample.model, &sample.g, &sample.mu());
         let torques = core::iter::once(&tau.0).chain(tau.2.iter());
         let turned = attitudes(&sample.g).into_iter().zip(torques);
         let sum = turned.fold(Vec3::zero(), |sum, (r, tau)| sum + r.rotate(tau.vec3()));
