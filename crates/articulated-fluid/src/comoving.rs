@@ -2,12 +2,12 @@
 //!
 //! Where every total mass $m_i$ is the same in all directions, as in a vacuum or of spheres in water, uniform motion and a uniform field
 //! do not change how the bodies move about their mass centre. With $M = \sum_i m_i$ and the total net mass $W$ under the gravity
-//! $\gamma$, that centre moves as $X$ does,
-//! $$ a = \frac{W}{M} \gamma, \qquad V(t) = V_0 + a (t - t_0), \qquad X(t) = x_0 + V_0 (t - t_0) + \tfrac12 a (t - t_0)^2 , $$
-//! where $x_0$ and $V_0 = p_x / M$ are those of the first body and of the whole at $t_0$. The coordinates of the frame are
-//! $$ x' = x - X(t), \qquad p_x' = p_x - M V = 0, \qquad p_i' = p_i - s_i \times R_i^T V, $$
-//! with the constants $s_i$ of $\sum_i m_i x_i = M x + \sum_i R_i s_i$. What is left of the weight are the net masses $w_i - (W/M) m_i$:
-//! none in a vacuum, and elsewhere none in sum. $X$ and $V$ are taken from the time, and no rounding gathers in them.
+//! $\gamma$, that centre and its velocity are
+//! $$ a = \frac{W}{M} \gamma, \qquad V(t) = V_0 + a (t - t_0), \qquad X(t) = X_0 + V_0 (t - t_0) + \tfrac12 a (t - t_0)^2 , $$
+//! where $V_0 = p_x / M$. With the constants $s_i$ of $\sum_i m_i x_i = M x + \sum_i R_i s_i$, a state of the frame is
+//! $$ p_x' = p_x - M V = 0, \qquad p_i' = p_i - s_i \times R_i^T V, \qquad x = X(t) - \frac1M \sum_i R_i s_i . $$
+//! The attitudes alone are solved for. What is left of the weight are the net masses $w_i - (W/M) m_i$: none in a vacuum, and elsewhere
+//! none in sum. $X$ and $V$ are taken from the time, and no rounding gathers in them.
 
 use dvi::{Lagrangian, State};
 use lie::{Mat3, RealGroup, Vec3, VectorSpace};
@@ -32,11 +32,11 @@ pub struct Comoving {
     levers: Vec<Vec3>,
 }
 
-/// How a frame moves: $t_0$, $x_0$ and $V_0$.
+/// How the mass centre moves: $t_0$, $X_0$ and $V_0$.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
     t: f64,
-    x: Vec3,
+    centre: Vec3,
     v: Vec3,
 }
 
@@ -83,13 +83,20 @@ impl Comoving {
         self.model.clone()
     }
 
-    /// The frame of a state: its first body is at rest at the origin of it at the state's time, but for its turns.
+    /// The frame of a state.
     fn drift(&self, state: &State<Configuration>) -> Drift {
         Drift {
             t: state.t,
-            x: state.g.1.vec3(),
+            centre: state.g.1.vec3() + self.lever(&state.g),
             v: state.mu.1.vec3() * (1.0 / self.mass),
         }
+    }
+
+    /// From the first body to the mass centre, $\frac1M \sum_i R_i s_i$.
+    fn lever(&self, g: &Configuration) -> Vec3 {
+        let levers = self.levers.iter().enumerate();
+        let turned = levers.map(|(i, lever)| of((&g.0, &g.2), i).rotate(*lever));
+        turned.fold(Vec3::zero(), |sum, lever| sum + lever) * (1.0 / self.mass)
     }
 
     /// Adds $V$ times `sign` to the momenta: $p_i + s_i \times R_i^T V$.
@@ -126,7 +133,7 @@ impl View for Comoving {
         outer.g.copy_from(&inner.g);
         outer.mu.copy_from(&inner.mu);
         self.boost(outer, v, 1.0);
-        outer.g.1 = (drift.x + (way + inner.g.1.vec3())).into();
-        outer.mu.1 = (inner.mu.1.vec3() + v * self.mass).into();
+        outer.g.1 = (drift.centre + (way - self.lever(&inner.g))).into();
+        outer.mu.1 = (v * self.mass).into();
     }
 }

@@ -70,7 +70,7 @@ proptest! {
             let at_rest = value(&g.zero_algebra());
             mu.set(i, value(&sum) - value(&still) - value(&basis(i)) + at_rest);
         }
-        let (velocity, _) = velocity_and_force::<J, _>(model, &g, &mu);
+        let (velocity, _) = velocity_and_force::<J>(model, &g, &mu);
         for (i, x) in velocity.coordinates().into_iter().enumerate() {
             // As above.
             assert_close(&[x.value()], &[xi.get(i)], 1e-12);
