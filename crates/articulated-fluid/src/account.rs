@@ -76,7 +76,7 @@ impl Scene {
                 self.weight_reduction(found),
                 self.root_reduction(found.root),
                 self.drift_reduction(found.drifts),
-                self.plane_reduction(found.plane),
+                self.plane_reduction(found),
             ],
         }
     }
@@ -149,26 +149,22 @@ impl Scene {
         some.max_by(|a, b| quantity(a).total_cmp(&quantity(b)))
     }
 
-    fn plane_reduction(&self, plane: &Result<Plane, NotPlanar>) -> Reduction {
-        let why = match plane {
+    fn plane_reduction(&self, found: &Found) -> Reduction {
+        let why = match found.plane {
             Ok(plane) => format!(
-                "bodies, joints and motion are symmetric under the plane normal to {}",
+                "bodies, joints and motion are symmetric under the plane normal to {}, exactly",
                 rounded(plane.normal())
             ),
             Err(refused) => {
-                let index = format!("(body {})", refused.body);
-                let name = self
-                    .bodies
-                    .get(refused.body)
-                    .map(|body| format!("({:?})", body.name));
-                refused
-                    .to_string()
-                    .replace(&index, &name.unwrap_or_default())
+                let k = refused.body;
+                let body = found.root.map_or(k, |root| root.listed(k));
+                let name = format!("({:?})", self.bodies[body].name);
+                refused.to_string().replace(&format!("(body {k})"), &name)
             }
         };
         Reduction {
             name: "plane",
-            taken: plane.is_ok(),
+            taken: found.plane.is_ok(),
             drops: "turns and displacements out of the plane".to_owned(),
             why,
         }

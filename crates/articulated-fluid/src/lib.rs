@@ -38,6 +38,11 @@
 //!
 //! [`OnSe3`] is the same discrete Lagrangian on $SE(3) \times SO(3)^n$. [`scene`] reads scenes from files.
 //!
+//! # Views of a scene
+//! [`Scene::smallest`] leaves out only what is exactly nothing. It steps a scene in other coordinates where these are better, by a
+//! [`View`]: on its heaviest body ([`Rerooted`]), beside its mass centre ([`Comoving`]), in a plane ([`planar`]). The states given out
+//! are the scene's own.
+//!
 //! # Motion in a plane
 //! Where bodies, joints and motion are symmetric under a mirror, [`planar`] restricts both Lagrangians to the plane, on
 //! $SO(2) \times \mathbb{R}^2 \times SO(2)^n$: [`Plane::find`](planar::Plane::find) finds it, and

@@ -65,7 +65,12 @@ impl Rerooted {
 
     /// The body of the scene on which the tree hangs.
     pub fn root(&self) -> usize {
-        self.order[0]
+        self.listed(0)
+    }
+
+    /// The body of the scene that body `k` of the model is.
+    pub(crate) fn listed(&self, k: usize) -> usize {
+        self.order[k]
     }
 
     /// The configuration and the velocity in the view's coordinates: $\dot x_r = \dot x_0 + \sum_i R_i (\Omega_i \times l_i)$.

@@ -134,10 +134,8 @@ fn a_spin_about_the_intermediate_axis_flips_when_it_does() {
     // On the way out Omega_2 = -tanh(lambda (t - T)), lambda^2 = (I_3 - I_2) (I_2 - I_1) / (I_1 I_3), to the square of 2e-12.
     let rate = 0.2_f64.sqrt();
     let flips = |state: &State<Configuration>| state.t + spin(state).atanh() / rate;
-    // The start's part along the growing direction, Omega_1 / Omega_3 = lambda I_3 / ((I_3 - I_1) ...), by the linear equations:
-    // Omega_1' = -(I_3 - I_2) / I_1 Omega_3, Omega_3' = -(I_2 - I_1) / I_3 Omega_1.
+    // At the start Omega_1' = -a Omega_3 and Omega_3' = -b Omega_1: the part with Omega_3 = -sqrt(b / a) Omega_1 grows.
     let (a, b) = (0.5_f64, 0.4_f64);
-    // With Omega_3 = s sqrt(b / a) Omega_1 the modes grow as s = -1 and fall as s = 1.
     let growing = 0.5 * 2e-12 * (1.0 - (a / b).sqrt());
     // Leaving as Omega_1 = A sech(lambda (t - T)) with A^2 = I_2 (I_3 - I_2) / (I_1 (I_3 - I_1)), so 2 A exp(-lambda T) = growing.
     let amplitude = (2.0 * 0.5 / 1.5_f64).sqrt();
