@@ -12,7 +12,7 @@ use super::scene::load;
 /// Tell what a scene is modelled with, and why: the smallest exact model.
 ///
 /// Each scene is described by the smallest group and the fewest terms that describe it exactly. What a scene does not have is
-/// not computed; what would hold only approximately is not left out, and the reason tells by how much it fails.
+/// not computed; a simplification that holds only approximately is not applied, and the reason tells how far off it is.
 #[derive(clap::Args)]
 #[command(after_long_help = AFTER_LONG_HELP)]
 pub struct Args {
@@ -34,8 +34,9 @@ Reductions:
   translation   x leaves the unknowns: the linear momentum is constant, or grows by the weight's impulse
   joints        one body alone has none
   weight        no gravity, or every body neutrally buoyant
-  fluid         without one, or for spheres, masses are numbers instead of matrices
-  plane         one mirror plane through all mass centres keeps the motion in it: rotations in SO(2)
+  root          the tree hangs on its heaviest body, if that is not the first one
+  drift         in a vacuum, or for spheres, uniform motion and fall are computed exactly
+  plane         one coordinate plane is a mirror of all, exactly, and the motion stays in it: rotations in SO(2)
 lgvi run takes what is exact, and lgvi run --full takes none of it: the motion is the same.";
 
 /// What is told of a scene; units are in the names.

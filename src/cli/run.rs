@@ -81,8 +81,7 @@ impl Args {
             });
         };
         let _spinner = progress::waiting("choosing stages and step");
-        let model = &loaded.smallest.model;
-        let pilot = accuracy::pilot(model, &loaded.start, self.until, accuracy)?;
+        let pilot = accuracy::pilot(&loaded.smallest, self.until, accuracy)?;
         Ok(Chosen {
             method: accuracy::method(&pilot),
             step: pilot.h,
@@ -91,7 +90,7 @@ impl Args {
     }
 
     fn integrator(&self, loaded: &Loaded, chosen: &Chosen) -> BoxedIntegrator<Configuration> {
-        let smallest = loaded.smallest.model.clone();
+        let smallest = &loaded.smallest;
         match &chosen.pilot {
             Some(pilot) => accuracy::integrator(smallest, pilot),
             None if self.full => {
@@ -136,6 +135,8 @@ A scene:
 {example}
 The keys of a scene:
 {keys}
+A scene that moves in a coordinate plane is stepped in the plane where all numbers out of it are exactly zero; one in a tilted
+plane is stepped in space.
 Nothing acts but weight, buoyancy and elastic joints: the first body floats free, every joint is a ball joint, at rest, if
 it is elastic, where both frames are aligned, and no scene has a fixed base, a hinge, a motor or damping. Forces take the
 library. Under a net weight the bodies speed up, and the energy error grows with their speed: that of lgvi in proportion

@@ -4,7 +4,7 @@ use dvi::{ContinuousSystem, Lagrangian, State};
 use lie::{LieGroup, SO3, Vec3};
 
 use crate::elimination::of;
-use crate::{ArticulatedBody, Configuration, Joint, Mass, ModelError};
+use crate::{ArticulatedBody, Configuration, Joint, ModelError};
 
 /// Energy and the momentum maps of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Conserved {
     pub angular: Vec3,
 }
 
-impl<M: Mass> ArticulatedBody<M> {
+impl ArticulatedBody {
     /// The velocity $\xi = (\Omega_0, \dot x, \Omega_1, \dots)$ of a state, the inverse of (10).
     ///
     /// # Errors

@@ -8,9 +8,9 @@ use smallvec::SmallVec;
 
 use crate::discrete::PerBody;
 use crate::elimination::{Attitudes, Elimination, of, of_mut};
-use crate::{ArticulatedBody, Configuration, Mass};
+use crate::{ArticulatedBody, Configuration};
 
-impl<M: Mass> ArticulatedBody<M> {
+impl ArticulatedBody {
     /// The velocities $V_i$ of the mass centres, each in its body's frame, (16):
     /// $V_i = C_i^T (V_p + \Omega_p \times d_{pi}) + d_{ip} \times \Omega_i$.
     fn centre_velocities<S: Scalar>(
@@ -39,7 +39,7 @@ impl<M: Mass> ArticulatedBody<M> {
     }
 }
 
-impl<M: Mass> Lagrangian for ArticulatedBody<M> {
+impl Lagrangian for ArticulatedBody {
     type Group = Configuration;
 
     /// The kinetic energy (6), less the potential of the weight and of the elastic joints.
@@ -89,7 +89,7 @@ impl<M: Mass> Lagrangian for ArticulatedBody<M> {
     }
 }
 
-impl<M: Mass> ContinuousSystem for ArticulatedBody<M> {
+impl ContinuousSystem for ArticulatedBody {
     type Group = Configuration;
     type Workspace<S: Scalar> = Elimination<S>;
     const INLINE: bool = true;

@@ -7,7 +7,7 @@ use lie::{Mat3, Scalar, Vec3};
 use smallvec::SmallVec;
 
 use crate::elimination::{Attitudes, of, of_mut};
-use crate::{ArticulatedBody, Configuration, Mass};
+use crate::{ArticulatedBody, Configuration};
 
 /// Bodies whose quantities fit on the stack.
 const FEW: usize = 8;
@@ -15,7 +15,7 @@ const FEW: usize = 8;
 /// A quantity of each body.
 pub(crate) type PerBody<T> = SmallVec<[T; FEW]>;
 
-impl<M: Mass> ArticulatedBody<M> {
+impl ArticulatedBody {
     /// (22), with the displacement of the first body $\Delta x$ in the reference frame and its position `x`.
     ///
     /// With $E = F - I$, $B_i$ of (28) and $\mathrm{tr}[(I - F) J_d] = -\mathrm{tr}[E J_d]$.
@@ -60,7 +60,7 @@ fn turn<S: Scalar>(moved: &Moved<S>) -> Mat3<S> {
     Mat3([moved[0].0, moved[1].0, moved[2].0])
 }
 
-impl<M: Mass> ArticulatedBody<M> {
+impl ArticulatedBody {
     /// The displacements that the turns alone make, $\Delta x = 0$, from the first body on.
     #[inline(always)]
     pub(crate) fn displace<S: Scalar>(
@@ -159,7 +159,7 @@ impl<M: Mass> ArticulatedBody<M> {
     }
 }
 
-impl<M: Mass> DiscreteLagrangian for ArticulatedBody<M> {
+impl DiscreteLagrangian for ArticulatedBody {
     type Group = Configuration;
 
     fn value<S: Scalar>(&self, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {

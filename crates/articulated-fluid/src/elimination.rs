@@ -10,7 +10,7 @@ use dvi::{Derivatives, Inertia, State};
 use lie::{AlgebraOver, DualOver, Ldl3, Mat3, SO3, Scalar, Sym3, Vec3};
 
 use crate::model::Node;
-use crate::{ArticulatedBody, Configuration, Mass};
+use crate::{ArticulatedBody, Configuration};
 
 pub(crate) type Velocity<S = f64> = AlgebraOver<Configuration, S>;
 pub(crate) type Momentum<S = f64> = DualOver<Configuration, S>;
@@ -61,14 +61,14 @@ pub(crate) struct Link<S> {
 impl<S: Scalar> Link<S> {
     /// A body before its children have been added: $A = M_i$, $K = -M_i \hat d_{ip}$, $H = J'_i$.
     #[inline(always)]
-    fn reset<M: Mass>(&mut self, node: &Node, mass: &M) {
-        self.mass = Sym3::upper(&mass.matrix()).lift();
+    fn reset(&mut self, node: &Node, mass: &Mat3) {
+        self.mass = Sym3::upper(mass).lift();
         self.x = node.k.lift();
         self.h = node.j_joint.lift();
     }
 
     /// A body without children, eliminated.
-    pub(crate) fn alone<M: Mass>(node: &Node, mass: &M) -> Self {
+    pub(crate) fn alone(node: &Node, mass: &Mat3) -> Self {
         let zero = Vec3::zero();
         let mut link = Self {
             c: Mat3::identity(),
@@ -144,7 +144,7 @@ pub struct Elimination<S = f64> {
 }
 
 impl<S: Scalar> Elimination<S> {
-    pub(crate) fn new<M: Mass>(tree: &ArticulatedBody<M>) -> Self {
+    pub(crate) fn new(tree: &ArticulatedBody) -> Self {
         let bodies = tree.nodes.iter().zip(&tree.masses);
         Self {
             links: bodies.map(|(node, mass)| Link::alone(node, mass)).collect(),
@@ -154,7 +154,7 @@ impl<S: Scalar> Elimination<S> {
 
     /// Eliminates the bodies from the leaves on. Those without children stay as they were made.
     #[inline(always)]
-    pub(crate) fn factorise<M: Mass>(&mut self, tree: &ArticulatedBody<M>, r: Attitudes<S>) {
+    pub(crate) fn factorise(&mut self, tree: &ArticulatedBody, r: Attitudes<S>) {
         for i in (1..tree.nodes.len()).rev() {
             self.factorise_link(tree, i, r);
         }
@@ -162,7 +162,7 @@ impl<S: Scalar> Elimination<S> {
     }
 
     #[inline(always)]
-    fn factorise_link<M: Mass>(&mut self, tree: &ArticulatedBody<M>, i: usize, r: Attitudes<S>) {
+    fn factorise_link(&mut self, tree: &ArticulatedBody, i: usize, r: Attitudes<S>) {
         let node = &tree.nodes[i];
         let (parent, link) = self.joint(i, node.parent);
         if node.is_last_sibling {
@@ -176,7 +176,7 @@ impl<S: Scalar> Elimination<S> {
     }
 
     #[inline(always)]
-    fn factorise_base<M: Mass>(&mut self, tree: &ArticulatedBody<M>) {
+    fn factorise_base(&mut self, tree: &ArticulatedBody) {
         let base = &mut self.links[0];
         if !tree.nodes[0].is_leaf {
             base.eliminate();
@@ -186,12 +186,7 @@ impl<S: Scalar> Elimination<S> {
 
     /// Eliminates the momenta from the leaves on, and finds the first body's velocity.
     #[inline(always)]
-    pub(crate) fn begin<M: Mass>(
-        &mut self,
-        tree: &ArticulatedBody<M>,
-        r0: &SO3<S>,
-        mu: &Momentum<S>,
-    ) {
+    pub(crate) fn begin(&mut self, tree: &ArticulatedBody, r0: &SO3<S>, mu: &Momentum<S>) {
         self.read_momenta(mu);
         for i in (1..tree.nodes.len()).rev() {
             self.eliminate_momentum(tree, i);
@@ -208,7 +203,7 @@ impl<S: Scalar> Elimination<S> {
     }
 
     #[inline(always)]
-    fn eliminate_momentum<M: Mass>(&mut self, tree: &ArticulatedBody<M>, i: usize) {
+    fn eliminate_momentum(&mut self, tree: &ArticulatedBody, i: usize) {
         let node = &tree.nodes[i];
         let (parent, link) = self.joint(i, node.parent);
         link.eliminate_force();
@@ -225,9 +220,9 @@ impl<S: Scalar> Elimination<S> {
 
     /// [`factorise`](Self::factorise) and [`begin`](Self::begin) in one pass, the momenta of a body while its factors are at hand.
     #[inline(always)]
-    pub(crate) fn factorise_and_begin<M: Mass>(
+    pub(crate) fn factorise_and_begin(
         &mut self,
-        tree: &ArticulatedBody<M>,
+        tree: &ArticulatedBody,
         r: Attitudes<S>,
         mu: &Momentum<S>,
     ) {
@@ -249,7 +244,7 @@ impl<S: Scalar> Elimination<S> {
 
     /// The velocity of body `i`'s joint, from its parent's velocity; then its own.
     #[inline(always)]
-    fn advance<M: Mass>(&mut self, tree: &ArticulatedBody<M>, i: usize) -> Vec3<S> {
+    fn advance(&mut self, tree: &ArticulatedBody, i: usize) -> Vec3<S> {
         let node = &tree.nodes[i];
         let (parent, link) = self.joint(i, node.parent);
         let u = parent.joint_velocity(link, node.at_parent.lift());
@@ -259,7 +254,7 @@ impl<S: Scalar> Elimination<S> {
 
     /// The velocities from the first body on, into `xi`: $\mathbb I(g) \xi = \mu$ is solved.
     #[inline(always)]
-    fn finish<M: Mass>(&mut self, tree: &ArticulatedBody<M>, r0: &SO3<S>, xi: &mut Velocity<S>) {
+    fn finish(&mut self, tree: &ArticulatedBody, r0: &SO3<S>, xi: &mut Velocity<S>) {
         let base = &self.links[0];
         xi.0 = base.omega.into();
         xi.1 = r0.rotate(base.v).into();
@@ -272,9 +267,9 @@ impl<S: Scalar> Elimination<S> {
     /// The velocities likewise, and the forces (11)–(13):
     /// $\tau_i = M_i V_i \times u_i + \sum_{k \text{ on } i} (\Omega_i \times l_k) \times C_k F_k$.
     #[inline(always)]
-    pub(crate) fn finish_with_forces<M: Mass>(
+    pub(crate) fn finish_with_forces(
         &mut self,
-        tree: &ArticulatedBody<M>,
+        tree: &ArticulatedBody,
         r0: &SO3<S>,
         xi: &mut Velocity<S>,
         tau: &mut DualOver<Configuration, S>,
@@ -298,12 +293,12 @@ impl<S: Scalar> Elimination<S> {
     }
 }
 
-impl<M: Mass> ArticulatedBody<M> {
+impl ArticulatedBody {
     /// $\sum_i R_i M_i R_i^T$: the slope of the linear momentum in $\dot x$, and that of (31) in $\Delta x / h$.
     #[inline(always)]
     pub(crate) fn total_mass(&self, r: Attitudes<f64>) -> Sym3 {
         let masses = self.masses.iter().enumerate();
-        let turned = masses.map(|(i, mass)| mass.turned(of(r, i).matrix()));
+        let turned = masses.map(|(i, mass)| Sym3::upper(mass).turned(of(r, i).matrix()));
         turned.fold(Sym3::zero(), Sym3::add)
     }
 }
@@ -317,7 +312,7 @@ pub struct Factor {
     total_mass: Ldl3,
 }
 
-impl<M: Mass> Inertia for ArticulatedBody<M> {
+impl Inertia for ArticulatedBody {
     type Factor = Factor;
 
     fn factor(&self) -> Factor {

@@ -1,12 +1,11 @@
 //! From a scene to a model and its initial state.
 
 use dvi::{Lagrangian, State};
-use lie::{LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
+use lie::{Cotangent, LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
 
+use crate::elimination::Velocity;
 use crate::scene::{SceneBody, SceneJoint, StartVelocity};
-use crate::{ArticulatedBody, Body, Configuration, Joint, ModelError, Scene};
-
-type Algebra = <Configuration as LieGroup>::Algebra;
+use crate::{ArticulatedBody, Body, Configuration, Joint, ModelError, Rerooted, Scene};
 
 impl Scene {
     /// The model of this scene.
@@ -52,10 +51,33 @@ impl Scene {
     /// # Errors
     /// As [`model`](Self::model), and [`ModelError::NotFinite`] where a velocity or a momentum overflows.
     pub fn initial_state(&self) -> Result<State<Configuration>, ModelError> {
-        let model = self.model()?;
-        let g = self.configuration()?;
-        let xi = self.velocities(&model, &g)?;
-        let mu = Lagrangian::legendre(&model, 0.0, &g, &xi);
+        self.start(&self.model()?, None, self.velocity)
+    }
+
+    /// The state at t = 0 with this velocity, in the coordinates of `root`, if any, whose model it is then.
+    pub(crate) fn start(
+        &self,
+        model: &ArticulatedBody,
+        root: Option<&Rerooted>,
+        velocity: StartVelocity,
+    ) -> Result<State<Configuration>, ModelError> {
+        let (mut g, mut xi) = (self.configuration()?, self.rates()?);
+        if let StartVelocity::Given(velocity) = velocity {
+            xi.1 = Tangent(velocity);
+        }
+        if let Some(root) = root {
+            (g, xi) = root.motion(&g, &xi);
+        }
+        let floats = velocity == StartVelocity::ZeroMomentum;
+        if floats {
+            stop(model, &g, &mut xi);
+        }
+        require(xi.1.vec3().is_finite(), "velocity")?;
+        let mut mu = Lagrangian::legendre(model, 0.0, &g, &xi);
+        if floats {
+            // The velocity is rounded, and the momentum is not.
+            mu.1 = Cotangent::zero();
+        }
         require(g.is_finite(), "configuration")?;
         require(mu.max_magnitude().is_finite(), "momentum")?;
         Ok(State { t: 0.0, g, mu })
@@ -68,28 +90,25 @@ impl Scene {
         Ok((attitude(head), Rn(self.position), tails))
     }
 
-    fn velocities(
-        &self,
-        model: &ArticulatedBody,
-        g: &Configuration,
-    ) -> Result<Algebra, ModelError> {
+    /// The angular velocities.
+    fn rates(&self) -> Result<Velocity, ModelError> {
         let rate = |body: &SceneBody| Tangent(body.angular_velocity);
         let (head, tails) = self.bodies.split_first().ok_or(ModelError::NoBody)?;
-        let tails = tails.iter().map(rate).collect();
-        let mut xi = (rate(head), Tangent([0.0; 3]), tails);
-        match self.velocity {
-            StartVelocity::Given(velocity) => xi.1 = Tangent(velocity),
-            StartVelocity::ZeroMomentum => {
-                let total = model.total_mass((&g.0, &g.2)).ldl();
-                // The second time for the rounding of the first.
-                for _ in 0..2 {
-                    let linear = Lagrangian::legendre(model, 0.0, g, &xi).1.vec3();
-                    xi.1 = Tangent((xi.1.vec3() - total.solve(linear)).0);
-                }
-            }
-        }
-        require(xi.1.vec3().is_finite(), "velocity")?;
-        Ok(xi)
+        Ok((
+            rate(head),
+            Tangent::zero(),
+            tails.iter().map(rate).collect(),
+        ))
+    }
+}
+
+/// Sets the velocity to the one of no linear momentum.
+fn stop(model: &ArticulatedBody, g: &Configuration, xi: &mut Velocity) {
+    let total = model.total_mass((&g.0, &g.2)).ldl();
+    // The second time for the rounding of the first.
+    for _ in 0..2 {
+        let linear = Lagrangian::legendre(model, 0.0, g, xi).1.vec3();
+        xi.1 = Tangent((xi.1.vec3() - total.solve(linear)).0);
     }
 }
 

@@ -38,11 +38,18 @@
 //!
 //! [`OnSe3`] is the same discrete Lagrangian on $SE(3) \times SO(3)^n$. [`scene`] reads scenes from files.
 //!
+//! # Views of a scene
+//! [`Scene::smallest`] leaves out only what is exactly nothing. It steps a scene in other coordinates where these are better, by a
+//! [`View`]: on its heaviest body ([`Rerooted`]), beside its mass centre ([`Comoving`]), in a plane ([`planar`]). The states given out
+//! are the scene's own.
+//!
 //! # Motion in a plane
 //! Where bodies, joints and motion are symmetric under a mirror, [`planar`] restricts both Lagrangians to the plane, on
 //! $SO(2) \times \mathbb{R}^2 \times SO(2)^n$: [`Plane::find`](planar::Plane::find) finds it, and
-//! [`InPlane`](planar::InPlane) steps the states in space, exactly in the plane and at little more than half the cost.
+//! [`Viewed`] steps the states in space, exactly in the plane and at little more than half the cost.
 
+mod account;
+mod comoving;
 mod conserved;
 mod continuous;
 mod discrete;
@@ -52,21 +59,25 @@ mod error;
 #[doc = include_str!("formulas.md")]
 pub mod formulas {}
 mod initial;
-mod mass;
 mod model;
 pub mod planar;
+mod rerooted;
 pub mod scene;
 mod semidirect;
 mod smallest;
 mod springs;
+mod view;
 mod weight;
 
+pub use account::{Account, Reduction};
+pub use comoving::{Comoving, Drift};
 pub use conserved::Conserved;
 pub use elimination::{Elimination, Factor};
 pub use ellipsoid::{Ellipsoid, EllipsoidError};
 pub use error::ModelError;
-pub use mass::Mass;
 pub use model::{ArticulatedBody, Body, Configuration, Joint};
+pub use rerooted::Rerooted;
 pub use scene::{Scene, SceneError};
 pub use semidirect::{OnSe3, SemidirectConfiguration};
-pub use smallest::{Account, Reduction, Smallest, SmallestModel};
+pub use smallest::Smallest;
+pub use view::{View, Viewed};

@@ -4,10 +4,10 @@ use core::ops::Range;
 
 use lie::{Mat3, Power, R3, SO3, Sym3, Vec3};
 
+use crate::ModelError;
 use crate::elimination::Link;
 use crate::springs::Springs;
 use crate::weight::Weight;
-use crate::{Mass, ModelError};
 
 /// The paper's direct product $SO(3) \times \mathbb{R}^3 \times SO(3)^n$, $g = (R_0, x, R_1, \dots, R_n)$.
 ///
@@ -42,8 +42,6 @@ pub struct Joint {
 /// for any number of bodies, each on any other; [`formulas`](crate::formulas) derives it. Evaluations, the inertia solve
 /// and steps cost time and memory in proportion to the bodies.
 ///
-/// `M` is how the masses are stored: matrices in a fluid, numbers [without](Self::isotropic).
-///
 /// ```
 /// use articulated_fluid::{ArticulatedBody, Body, Joint};
 /// use lie::{Mat3, Vec3};
@@ -61,9 +59,9 @@ pub struct Joint {
 /// # Ok::<(), articulated_fluid::ModelError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct ArticulatedBody<M = Mat3> {
+pub struct ArticulatedBody {
     /// $M_i$.
-    pub(crate) masses: Vec<M>,
+    pub(crate) masses: Vec<Mat3>,
     /// A parent stands before its children.
     pub(crate) nodes: Vec<Node>,
     pub(crate) weight: Option<Weight>,
@@ -132,29 +130,6 @@ impl ArticulatedBody {
         }
     }
 
-    /// The same model with its masses as numbers, where each is isotropic, as without a fluid: fewer terms, the same motion.
-    ///
-    /// ```
-    /// use articulated_fluid::{ArticulatedBody, Body};
-    /// use lie::Mat3;
-    ///
-    /// let dry = Body { mass: Mat3::diagonal([2.0; 3]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
-    /// assert!(ArticulatedBody::new(&[dry], &[])?.isotropic().is_some());
-    /// # Ok::<(), articulated_fluid::ModelError>(())
-    /// ```
-    pub fn isotropic(&self) -> Option<ArticulatedBody<f64>> {
-        let number = |m: &Mat3| (*m == Mat3::diagonal([m[(0, 0)]; 3])).then_some(m[(0, 0)]);
-        Some(ArticulatedBody {
-            masses: self.masses.iter().map(number).collect::<Option<_>>()?,
-            nodes: self.nodes.clone(),
-            weight: self.weight.clone(),
-            springs: self.springs.clone(),
-            keeps_translation: self.keeps_translation,
-        })
-    }
-}
-
-impl<M: Mass> ArticulatedBody<M> {
     /// The same bodies under gravity: on each acts its net mass, that of the body less that of the displaced fluid, kg, times
     /// `gravity`, m/s² in the reference frame, at its mass centre.
     ///
@@ -233,7 +208,7 @@ impl<M: Mass> ArticulatedBody<M> {
     pub fn bodies(&self) -> impl ExactSizeIterator<Item = Body> + '_ {
         let bodies = self.masses.iter().zip(&self.nodes);
         bodies.map(|(mass, node)| Body {
-            mass: mass.matrix(),
+            mass: *mass,
             inertia: node.j,
         })
     }

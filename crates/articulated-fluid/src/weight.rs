@@ -13,6 +13,8 @@ use crate::model::Node;
 pub(crate) struct Weight {
     /// $\gamma$, m/s², reference frame.
     gravity: Vec3,
+    /// $m_i$, kg.
+    net_masses: Vec<f64>,
     /// $w_0$, kg.
     total: f64,
     /// $s_i$, kg m, in the body's frame.
@@ -21,39 +23,34 @@ pub(crate) struct Weight {
 
 impl Weight {
     pub(crate) fn new(gravity: Vec3, net_masses: &[f64], nodes: &[Node]) -> Self {
-        let mut sums = net_masses.to_vec();
-        // What cancels in the sums and the levers: their rounding is relative to it.
-        let mut sizes: Vec<f64> = net_masses.iter().map(|mass| mass.abs()).collect();
-        let mut levers = vec![Vec3::zero(); nodes.len()];
-        let mut lever_sizes = vec![0.0; nodes.len()];
-        for (i, node) in nodes.iter().enumerate().skip(1).rev() {
-            sums[node.parent] += sums[i];
-            sizes[node.parent] += sizes[i];
-            levers[node.parent] += node.at_parent * sums[i];
-            lever_sizes[node.parent] += node.at_parent.norm() * sizes[i];
-            levers[i] -= node.at_self * sums[i];
-            lever_sizes[i] += node.at_self.norm() * sizes[i];
-        }
-        let first = |values: &[f64]| values.first().copied().unwrap_or(0.0);
-        let (total, size) = (first(&sums), first(&sizes));
+        let sizes: Vec<f64> = net_masses.iter().map(|mass| mass.abs()).collect();
+        let (total, levers) = moments(net_masses, nodes);
+        let (size, lengths) = moments_of_sizes(&sizes, nodes);
+        // Net masses that cancel as the scene's decimal numbers do leave the rounding of so many terms.
         let is_rounding = |part: f64, size: f64| {
             let rounding = f64::EPSILON * nodes.len() as f64 * size;
             part <= rounding && rounding.is_finite()
         };
-        for (lever, size) in levers.iter_mut().zip(lever_sizes) {
-            if is_rounding(lever.norm(), size) {
-                *lever = Vec3::zero();
-            }
-        }
+        let kept = |(lever, size): (Vec3, f64)| match is_rounding(lever.norm(), size) {
+            true => Vec3::zero(),
+            false => lever,
+        };
         Self {
             gravity,
+            net_masses: net_masses.to_vec(),
             total: if is_rounding(total.abs(), size) {
                 0.0
             } else {
                 total
             },
-            levers,
+            levers: levers.into_iter().zip(lengths).map(kept).collect(),
         }
+    }
+
+    /// The same levers on a whole that floats.
+    pub(crate) fn afloat(mut self) -> Self {
+        self.total = 0.0;
+        self
     }
 
     pub(crate) fn is_finite(&self) -> bool {
@@ -64,6 +61,16 @@ impl Weight {
     /// $\gamma$, m/s².
     pub(crate) fn gravity(&self) -> Vec3 {
         self.gravity
+    }
+
+    /// $m_i$, kg.
+    pub(crate) fn net_masses(&self) -> &[f64] {
+        &self.net_masses
+    }
+
+    /// $w_0$, kg.
+    pub(crate) fn total(&self) -> f64 {
+        self.total
     }
 
     /// Whether the whole floats: then nothing depends on where it is.
@@ -103,4 +110,26 @@ impl Weight {
             sum - gravity.dot(r.rotate(s.lift()))
         })
     }
+}
+
+/// The sum $w_0$ of such masses, kg, and the levers $s_i$, kg m, each in its body's frame.
+pub(crate) fn moments(masses: &[f64], nodes: &[Node]) -> (f64, Vec<Vec3>) {
+    let (mut sums, mut levers) = (masses.to_vec(), vec![Vec3::zero(); nodes.len()]);
+    for (i, node) in nodes.iter().enumerate().skip(1).rev() {
+        sums[node.parent] += sums[i];
+        levers[node.parent] += node.at_parent * sums[i];
+        levers[i] -= node.at_self * sums[i];
+    }
+    (sums.first().copied().unwrap_or(0.0), levers)
+}
+
+/// What cancels in [`moments`], of the sizes of the masses.
+fn moments_of_sizes(sizes: &[f64], nodes: &[Node]) -> (f64, Vec<f64>) {
+    let (mut sums, mut lengths) = (sizes.to_vec(), vec![0.0; nodes.len()]);
+    for (i, node) in nodes.iter().enumerate().skip(1).rev() {
+        sums[node.parent] += sums[i];
+        lengths[node.parent] += node.at_parent.norm() * sums[i];
+        lengths[i] += node.at_self.norm() * sums[i];
+    }
+    (sums.first().copied().unwrap_or(0.0), lengths)
 }

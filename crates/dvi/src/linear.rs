@@ -8,6 +8,7 @@ use faer::perm::PermRef;
 use faer::{Mat, MatMut, Par, Spec};
 
 use crate::degenerate::Square;
+use crate::sizes::{exponent, power_of_two};
 
 /// A square matrix, its LU factorisation with partial pivoting, and a right-hand side.
 ///
@@ -158,16 +159,6 @@ impl Factorisation {
         scale(&mut self.rhs, columns);
         &self.rhs
     }
-}
-
-/// That of the power of two at or below the magnitude; none of zero and of what is no number.
-fn exponent(x: f64) -> Option<i32> {
-    let biased = (x.to_bits() >> 52) as i32 & 0x7ff;
-    (biased != 0 && biased != 0x7ff).then_some(biased - 0x3ff)
-}
-
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent.clamp(-0x3fe, 0x3ff) + 0x3ff) as u64) << 52)
 }
 
 #[cfg(test)]

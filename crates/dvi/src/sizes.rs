@@ -38,11 +38,72 @@ impl Kinds {
     }
 }
 
+/// Coordinates of a kind whose inertia is looked at, at most.
+const SAMPLES: usize = 8;
+/// What a kind moves less than this part of what the others do is rounding of theirs.
+const BESIDE: f64 = 4.0 * f64::EPSILON;
+
+/// What brings the kinds to one unit: the roots of their inertias, so that sizes of two kinds can be compared at all.
+///
+/// It is only asked whether one is rounding of another: a body that turns about its mass centre has no momentum to be relative to.
+#[derive(Clone)]
+pub(crate) struct Weights(Vec<f64>);
+
+impl Weights {
+    /// From the inertia along a coordinate; powers of two, which follow the units exactly.
+    pub(crate) fn new(kinds: &Kinds, mut inertia: impl FnMut(usize) -> f64) -> Self {
+        let mut largest = vec![0.0_f64; kinds.count];
+        for (kind, largest) in largest.iter_mut().enumerate() {
+            let of_kind = kinds.runs.iter().filter(|(_, of)| *of == kind);
+            let coordinates: Vec<usize> = of_kind.flat_map(|(run, _)| run.clone()).collect();
+            let every = coordinates.len().div_ceil(SAMPLES).max(1);
+            let sampled = coordinates.into_iter().step_by(every).map(&mut inertia);
+            *largest = sampled.filter(|x| x.is_finite()).fold(0.0, f64::max);
+        }
+        let first = largest.iter().find_map(|x| exponent(*x)).unwrap_or(0);
+        let weight =
+            |x: &f64| exponent(*x).map_or(1.0, |e| power_of_two((e - first).div_euclid(2)));
+        Self(largest.iter().map(weight).collect())
+    }
+
+    /// What is rounding, for each kind of velocities beside all.
+    pub(crate) fn beside_velocities(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
+        let all = self.0.iter().enumerate();
+        let largest = all.fold(0.0, |max, (k, weight)| larger(max, sizes(k) * weight));
+        BESIDE * largest / self.0[kind]
+    }
+
+    /// The same of momenta.
+    pub(crate) fn beside_momenta(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
+        let all = self.0.iter().enumerate();
+        let largest = all.fold(0.0, |max, (k, weight)| larger(max, sizes(k) / weight));
+        BESIDE * largest * self.0[kind]
+    }
+}
+
+/// A size relative to another, which is at least what is rounding; none where it is rounding itself.
+pub(crate) fn relative_beside(size: f64, scale: f64, rounding: f64) -> f64 {
+    if size <= rounding {
+        return 0.0;
+    }
+    relative(size, larger(scale, rounding))
+}
+
 /// The blocks of a group's coordinates, and how large a vector is in each.
 pub(crate) struct Sizes {
     blocks: Vec<Block>,
-    kinds: usize,
+    kinds: Vec<Kind>,
+    weights: Weights,
     numbers: Vec<f64>,
+}
+
+/// The largest of the blocks of a kind.
+#[derive(Clone, Copy, Default)]
+struct Kind {
+    size: f64,
+    scale: f64,
+    /// What is rounding of the other kinds' scales.
+    rounding: f64,
 }
 
 /// Coordinates of one unit that belong together.
@@ -58,7 +119,7 @@ struct Block {
 
 impl Sizes {
     /// For vectors of the shape of `g`, without the coordinates in `left_out`.
-    pub(crate) fn new<G: LieGroup>(g: &G, left_out: Range<usize>) -> Self {
+    pub(crate) fn new<G: LieGroup>(g: &G, left_out: Range<usize>, weights: Weights) -> Self {
         let units = Units::of(g);
         let (before, after) = (0..left_out.start, left_out.end..usize::MAX);
         let parts = units.blocks().flat_map(|(block, kind)| {
@@ -79,7 +140,8 @@ impl Sizes {
                 .filter(|(part, _)| !part.is_empty())
                 .map(block)
                 .collect(),
-            kinds: units.kinds(),
+            kinds: vec![Kind::default(); units.kinds()],
+            weights,
             numbers: vec![0.0; g.zero_dual().dim()],
         }
     }
@@ -94,6 +156,14 @@ impl Sizes {
             for block in &mut self.blocks {
                 block.scale = larger(block.scale, block.size);
             }
+        }
+        for (kind, of_kind) in self.kinds.iter_mut().enumerate() {
+            let blocks = self.blocks.iter().filter(|block| block.kind == kind);
+            of_kind.scale = blocks.fold(0.0, |max, block| larger(max, block.scale));
+        }
+        for kind in 0..self.kinds.len() {
+            let scale = |kind: usize| self.kinds[kind].scale;
+            self.kinds[kind].rounding = self.weights.beside_momenta(scale, kind);
         }
     }
 
@@ -115,14 +185,16 @@ impl Sizes {
     #[inline(always)]
     pub(crate) fn relative<V: VectorSpace<Scalar = f64>>(&mut self, x: &V) -> Relative {
         self.measure(x);
+        self.kinds.iter_mut().for_each(|kind| kind.size = 0.0);
         let mut found = Relative::default();
-        for kind in 0..self.kinds {
-            let (mut size, mut scale) = (0.0, 0.0);
-            for block in self.blocks.iter().filter(|block| block.kind == kind) {
-                (size, scale) = (larger(size, block.size), larger(scale, block.scale));
-                found.by_block = larger(found.by_block, relative(block.size, block.scale));
-            }
-            found.by_kind = larger(found.by_kind, relative(size, scale));
+        for block in &self.blocks {
+            let kind = &mut self.kinds[block.kind];
+            kind.size = larger(kind.size, block.size);
+            found.by_block = larger(found.by_block, relative(block.size, block.scale));
+        }
+        for kind in &self.kinds {
+            let by_kind = relative_beside(kind.size, kind.scale, kind.rounding);
+            found.by_kind = larger(found.by_kind, by_kind);
         }
         found
     }
@@ -189,4 +261,14 @@ pub(crate) fn shaken(x: f64, time: u32) -> f64 {
 /// Shakes every coordinate.
 pub(crate) fn shake<V: VectorSpace<Scalar = f64>>(x: &mut V, time: u32) {
     (0..x.dim()).for_each(|i| x.set(i, shaken(x.get(i), time)));
+}
+
+/// That of the power of two at or below the magnitude; none of zero and of what is no number.
+pub(crate) fn exponent(x: f64) -> Option<i32> {
+    let biased = (x.to_bits() >> 52) as i32 & 0x7ff;
+    (biased != 0 && biased != 0x7ff).then_some(biased - 0x3ff)
+}
+
+pub(crate) fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent.clamp(-0x3fe, 0x3ff) + 0x3ff) as u64) << 52)
 }

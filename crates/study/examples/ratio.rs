@@ -51,12 +51,7 @@ fn main() -> Result<(), Error> {
     let path = arguments.next().unwrap_or("scenes/fish-chain.toml".into());
     let until: f64 = arguments.next().map_or(Ok(10.0), |t| t.parse())?;
     let scene = Scene::load(path.as_ref())?;
-    let (model, start) = (scene.model()?, scene.initial_state()?);
-    let problem = Problem {
-        model,
-        start,
-        until,
-    };
+    let problem = Problem::of(&scene, until)?;
     let explicit = [explicit(&problem)?];
     let gauss = gauss(&problem)?;
     println!("{path}, t = {until} s");

@@ -13,8 +13,8 @@
 use core::fmt;
 use core::str::FromStr;
 
-use articulated_fluid::planar::{InPlane, PlanarBody, PlanarConfiguration};
-use articulated_fluid::{ArticulatedBody, Configuration, Mass, SmallestModel};
+use articulated_fluid::planar::{PlanarBody, PlanarConfiguration};
+use articulated_fluid::{ArticulatedBody, Configuration, Smallest};
 use dvi::{Adjoint, Composition, Gauss, Integrator, Variational};
 use thiserror::Error;
 
@@ -314,7 +314,7 @@ impl Method {
     }
 
     /// The method for a model in space.
-    pub fn integrator<M: Mass>(self, model: ArticulatedBody<M>) -> BoxedIntegrator<Configuration> {
+    pub fn integrator(self, model: ArticulatedBody) -> BoxedIntegrator<Configuration> {
         integrator!(self, model)
     }
 
@@ -323,15 +323,12 @@ impl Method {
         integrator!(self, model)
     }
 
-    /// The method for the smallest exact model of a scene: it steps that, and gives the scene's own configuration.
-    pub fn integrator_of_smallest(self, model: SmallestModel) -> BoxedIntegrator<Configuration> {
-        match model {
-            SmallestModel::Fluid(model) => self.integrator(model),
-            SmallestModel::Dry(model) => self.integrator(model),
-            SmallestModel::Planar(model, plane) => {
-                Box::new(InPlane::new(plane, self.integrator_in_plane(model)))
-            }
-        }
+    /// The method for the smallest exact model of a scene: it steps that, and gives the scene's own states.
+    pub fn integrator_of_smallest(self, smallest: &Smallest) -> BoxedIntegrator<Configuration> {
+        smallest.integrator(
+            |model| self.integrator(model),
+            |model| self.integrator_in_plane(model),
+        )
     }
 }
 

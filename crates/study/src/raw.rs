@@ -79,6 +79,6 @@ pub fn right_hand_side(
     model: &ArticulatedBody,
     start: &State<Configuration>,
 ) -> impl FnMut(f64, &[f64], &mut [f64]) + use<> {
-    let mut rates = RightHandSide::<_, f64>::new(model, start);
+    let mut rates = RightHandSide::<f64>::new(model, start);
     move |_, y, dy| rates.evaluate(y, dy)
 }

@@ -62,8 +62,8 @@ What is measured:
                it is in the chart and not in the table
   setting      one counts as reaching an error only if all finer settings of its method do
 rk4, rkmk4, cf4, dp54 evaluate the model one state at a time; gauss and dp853 do it by the processor's widest instructions.
-All methods step the same model, that of lgvi run --full without the translation. Where lgvi inspect finds a smaller one,
-lgvi run is faster than the chart says. A method's line ends at the reference's own error, or after two runs of more than half a second.
+All methods step the same model in space, that of lgvi run but for a plane: where lgvi inspect finds one, lgvi run is faster than
+the chart says. Places are relative to the frame of that model. A method's line ends at the reference's own error, or after two runs of more than half a second.
 
 Exit codes:
   0    done, even if single runs of the chart failed
@@ -78,8 +78,8 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
     let files = Files::create(&args.out, args.scene.as_deref())?;
     let problem = Problem {
-        model: loaded.model.clone(),
-        start: loaded.start.clone(),
+        model: loaded.smallest.model.clone(),
+        start: loaded.smallest.start.clone(),
         until: args.until,
     };
     let reference = {

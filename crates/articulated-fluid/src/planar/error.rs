@@ -5,7 +5,7 @@ use core::fmt::{Display, Formatter, Result};
 use lie::Vec3;
 use thiserror::Error;
 
-/// No plane is a mirror of the model and its motion.
+/// No coordinate plane is a mirror of the model and its motion, exactly.
 ///
 /// It speaks of the plane that the fewest parts of the model and the state violate.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -20,7 +20,7 @@ pub struct NotPlanar {
     pub torque: f64,
     /// The part of $\dot p_x$ out of the plane, N.
     pub force: f64,
-    /// The plane's normal, of length 1, reference frame.
+    /// The plane's normal, a coordinate axis of the reference frame.
     pub normal: Vec3,
 }
 
@@ -42,14 +42,14 @@ impl Display for NotPlanar {
             normal,
         } = self;
         let of = match what {
-            NotPlanarCause::State => return write!(f, "no motion in a plane: {what}"),
+            NotPlanarCause::State => return write!(f, "no motion in a coordinate plane: {what}"),
             NotPlanarCause::VelocityOffPlane | NotPlanarCause::GravityOffPlane => String::new(),
             _ => format!(" (body {body})"),
         };
         let normal = rounded(*normal);
         write!(
             f,
-            "no motion in a plane; nearest is the one normal to {normal}, but {what}{of}: {defect:.1e} relative to the largest of its kind, where rounding makes at most 1e-12; the momenta leave the plane at {torque:.1e} N m and {force:.1e} N"
+            "no motion in a coordinate plane; best candidate: normal {normal}. But {what}{of}, by {defect:.1e} of the largest of its kind; the momenta leave the plane at {torque:.1e} N m and {force:.1e} N"
         )
     }
 }
@@ -64,6 +64,9 @@ pub enum NotPlanarCause {
     /// The plane's normal is no principal direction of $J_i$.
     #[error("an inertia couples the plane and its normal")]
     InertiaCoupling,
+    /// No coordinate axis of the body is along the plane's normal, exactly.
+    #[error("no axis of a body's frame is along the normal")]
+    AttitudeOffPlane,
     /// A joint does not lie in the plane through the mass centre of a body that it is on.
     #[error("a joint is off the plane of the mass centre")]
     JointOffPlane,

@@ -2,8 +2,22 @@
 
 use lie::{LieGroup, Mat3, SO2, SO3, Vec3};
 
-use super::axes::unit;
 use super::vector::{Sym2, Vec2};
+
+/// The coordinate axis, of either sign, that is nearest to `x`.
+pub(super) fn nearest_axis(x: Vec3) -> Vec3 {
+    let longest = (0..3).max_by(|a, b| x[*a].abs().total_cmp(&x[*b].abs()));
+    let mut axis = Vec3::zero();
+    let k = longest.unwrap_or(0);
+    axis[k] = x[k].signum();
+    axis
+}
+
+/// The largest component of `x` across a coordinate axis.
+pub(super) fn off_axis(x: Vec3, axis: Vec3) -> f64 {
+    let across = (0..3).filter(|k| axis[*k] == 0.0);
+    across.map(|k| x[k].abs()).fold(0.0, f64::max)
+}
 
 /// A right-handed orthonormal frame whose third axis is the normal of a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,14 +28,12 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// The frame with this normal, its first axis near a coordinate axis.
+    /// The frame with this normal, a coordinate axis: of coordinate axes.
     pub(super) fn with_normal(normal: Vec3) -> Self {
-        let normal = unit(normal);
-        let alignment = |k: &usize| normal[*k].abs();
-        let most = (0..3).min_by(|a, b| alignment(a).total_cmp(&alignment(b)));
-        let mut axis = Vec3::zero();
-        axis[most.unwrap_or(0)] = 1.0;
-        let first = unit(axis - normal * normal.dot(axis));
+        let first = match normal[0] == 0.0 {
+            true => Vec3([1.0, 0.0, 0.0]),
+            false => Vec3([0.0, 1.0, 0.0]),
+        };
         Self {
             first,
             second: normal.cross(first),

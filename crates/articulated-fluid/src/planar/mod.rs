@@ -1,16 +1,20 @@
 //! Motion in a plane: the same bodies where everything is symmetric under a mirror.
 //!
-//! Where the normal $n$ of a plane is, in every body's frame, a principal direction of its mass and its inertia, where the
+//! The normal $n$ of a plane may be, in every body's frame, a principal direction of its mass and its inertia. Where moreover the
 //! joints, the velocity and the gravity lie in the plane and the bodies spin about $n$, the motion stays so: no force leads
 //! out of it. An elastic joint aligns the frames of its bodies: where $n$ has one direction in both, it only turns them about $n$. Rotations are then angles and the group is abelian, $SO(2) \times \mathbb{R}^2 \times SO(2)^n$.
 //!
+//! A plane is taken only where it is exact: $n$ is a coordinate axis of the reference frame and of every body's, and all numbers that
+//! would lead out of the plane are zero. A small number there may grow, as in a spin about the intermediate axis, so none is left
+//! out. A motion in a plane of a tilted frame has such numbers by rounding: it is stepped in space.
+//!
 //! [`Plane::find`] finds the plane of a model and a state; [`PlanarBody`] is the model in it, with the discrete and the
 //! continuous Lagrangian of [`ArticulatedBody`](crate::ArticulatedBody) restricted to the plane, the same functions; and
-//! [`InPlane`] steps states in space by an integrator in the plane.
+//! [`Viewed`](crate::Viewed) steps states in space by an integrator in the plane.
 //!
 //! ```
-//! use articulated_fluid::planar::{InPlane, Plane};
-//! use articulated_fluid::{ArticulatedBody, Body, Joint};
+//! use articulated_fluid::planar::Plane;
+//! use articulated_fluid::{ArticulatedBody, Body, Joint, Viewed};
 //! use dvi::{Integrator, Lagrangian, Variational};
 //! use lie::{Mat3, Power, R3, SO3, Tangent, Vec3};
 //!
@@ -22,7 +26,7 @@
 //! let mut state = fish.state(0.0, fish.aligned(), &(Tangent::zero(), Tangent([0.3, 0.0, 0.0]), beat));
 //!
 //! let plane = Plane::find(&fish, &state)?;
-//! let mut integrator = InPlane::new(plane.clone(), Variational::with_inertia(plane.model()));
+//! let mut integrator = Viewed::new(plane.clone(), Variational::with_inertia(plane.model()));
 //! let energy = fish.conserved(&state)?.energy;
 //! for _ in 0..1000 {
 //!     integrator.step(&mut state, 1e-3)?;
@@ -31,14 +35,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod axes;
 mod continuous;
 mod discrete;
 mod elimination;
 mod error;
 mod find;
 mod frame;
-mod in_plane;
 mod plane;
 mod springs;
 mod vector;
@@ -56,7 +58,6 @@ use weight::Weight;
 pub use elimination::{Elimination, Factor};
 pub(crate) use error::rounded;
 pub use error::{NotPlanar, NotPlanarCause};
-pub use in_plane::InPlane;
 pub use plane::Plane;
 
 /// $SO(2) \times \mathbb{R}^2 \times SO(2)^n$, $g = (R_0, x, R_1, \dots, R_n)$, in the frame of a [`Plane`].

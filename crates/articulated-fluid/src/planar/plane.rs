@@ -1,18 +1,16 @@
 //! The plane of a motion: states in space to states in the plane, and back.
 
 use dvi::State;
-use lie::{Cotangent, LieGroup, Power, Rn, SO2, SO3, Vec3};
+use lie::{Cotangent, LieGroup, Power, Rn, SO2, SO3, Vec3, VectorSpace};
 
-use super::frame::Frame;
+use super::frame::{Frame, nearest_axis, off_axis};
 use super::springs::{Spring, Springs};
 use super::vector::Vec2;
 use super::weight::Weight;
 use super::{Node, NotPlanar, PlanarBody, PlanarConfiguration, find};
 use crate::elimination::of;
-use crate::{ArticulatedBody, Configuration, Mass};
-
-/// Relative departures from the plane of states that are still [of it](Plane::contains).
-const TOLERANCE: f64 = 1e-9;
+use crate::view::View;
+use crate::{ArticulatedBody, Configuration};
 
 /// The mirror plane of a model and its motion, with the model in it.
 ///
@@ -27,27 +25,23 @@ pub struct Plane {
     bodies: Vec<Frame>,
     /// $n \cdot x$, m.
     offset: f64,
-    /// The size of the bodies, m.
-    length: f64,
 }
 
 impl Plane {
-    /// The plane that is a mirror of the model and of the motion from this state, to rounding.
+    /// The plane that is a mirror of the model and of the motion from this state, exactly.
     ///
-    /// The normal is a principal direction of each body's mass and inertia, the joints, the velocity and the gravity lie in
-    /// the plane, and the bodies spin about the normal. That has one direction in the frames of both bodies of an elastic joint.
+    /// The normal is a coordinate axis in the reference frame and in that of each body, and a principal direction of each mass and
+    /// inertia. The joints, the velocity and the gravity lie in the plane, and the bodies spin about the normal. That has one direction
+    /// in the frames of both bodies of an elastic joint. Every number that would lead out of the plane is zero: a plane in a tilted
+    /// frame, of which rounding leaves some, is not found.
     ///
     /// # Errors
     /// [`NotPlanar`], with what violates the best plane, and by how much.
-    pub fn find<M: Mass>(
-        model: &ArticulatedBody<M>,
-        state: &State<Configuration>,
-    ) -> Result<Self, NotPlanar> {
-        let found = find::normal(model, state)?;
-        let world = Frame::with_normal(found.normal);
+    pub fn find(model: &ArticulatedBody, state: &State<Configuration>) -> Result<Self, NotPlanar> {
+        let world = Frame::with_normal(find::normal(model, state)?);
         let body = |i: usize| {
             let r = of((&state.g.0, &state.g.2), i);
-            Frame::with_normal(r.inverse_rotate(world.normal))
+            Frame::with_normal(nearest_axis(r.inverse_rotate(world.normal)))
         };
         let bodies: Vec<Frame> = (0..model.nodes.len()).map(body).collect();
         let mut plane = Self {
@@ -60,7 +54,6 @@ impl Plane {
             world,
             bodies,
             offset: world.normal.dot(state.g.1.vec3()),
-            length: found.length,
         };
         plane.model.weight = plane.weight(model);
         plane.model.springs = plane.springs(model);
@@ -79,18 +72,7 @@ impl Plane {
 
     /// The state in the plane; of a state that is [not of the plane](Self::contains), the nearest.
     pub fn project(&self, state: &State<Configuration>) -> State<PlanarConfiguration> {
-        let mut planar = self.origin();
-        self.project_into(state, &mut planar);
-        planar
-    }
-
-    /// [`project`](Self::project) into a state of the same number of bodies.
-    pub fn project_into(
-        &self,
-        state: &State<Configuration>,
-        planar: &mut State<PlanarConfiguration>,
-    ) {
-        let State { t, g, mu } = state;
+        let (mut planar, State { t, g, mu }) = (self.origin(), state);
         planar.t = *t;
         planar.g.1.0 = self.world.project(g.1.vec3()).0;
         planar.mu.1.0 = self.world.project(mu.1.vec3()).0;
@@ -103,6 +85,7 @@ impl Plane {
         for ((body, p), momentum) in self.bodies.iter().zip(p).zip(each(momenta)) {
             momentum[0] = body.normal.dot(p.vec3());
         }
+        planar
     }
 
     /// The state in space.
@@ -143,27 +126,27 @@ impl Plane {
         }
     }
 
-    /// Whether a state is one of this plane: of as many bodies, and out of the plane by at most 1e-9 of the sizes of its
-    /// position and its momenta.
+    /// Whether a state is one of this plane, exactly: of as many bodies, and with no part out of the plane.
     pub fn contains(&self, state: &State<Configuration>) -> bool {
         let ((r0, x, r), (p0, px, p)) = (&state.g, &state.mu);
-        let (normal, x, px) = (self.world.normal, x.vec3(), px.vec3());
+        let normal = self.world.normal;
         if [r.len(), p.len()] != [self.bodies.len() - 1; 2] {
             return false;
         }
-        let spins = || first_and_rest(p0, p).map(|p| p.vec3());
-        let spin = spins().fold(self.length * px.norm(), |size, p| size.max(p.norm()));
-        let turned = |(body, r): (&Frame, &SO3)| (r.rotate(body.normal) - normal).norm();
-        let off_axis = |(body, p): (&Frame, Vec3)| p.cross(body.normal).norm();
-        let within = |part: f64, size: f64| part <= TOLERANCE * size;
+        let keeps = |(body, r): (&Frame, &SO3)| {
+            let (there, back) = (r.rotate(body.normal), r.inverse_rotate(normal));
+            let off = off_axis(there, normal).max(off_axis(back, body.normal));
+            off == 0.0 && there.dot(normal) > 0.0
+        };
+        let spins = |(body, p): (&Frame, &Cotangent<3>)| off_axis(p.vec3(), body.normal) == 0.0;
+        let finite = state.g.is_finite() && state.mu.max_magnitude().is_finite();
         let mut bodies = self.bodies.iter().zip(first_and_rest(r0, r));
-        let mut momenta = self.bodies.iter().zip(spins());
-        within(
-            (normal.dot(x) - self.offset).abs(),
-            x.norm().max(self.length),
-        ) && within(self.length * normal.dot(px).abs(), spin)
-            && bodies.all(|pair| within(turned(pair), 1.0))
-            && momenta.all(|pair| within(off_axis(pair), spin))
+        let mut momenta = self.bodies.iter().zip(first_and_rest(p0, p));
+        finite
+            && normal.dot(x.vec3()) == self.offset
+            && normal.dot(px.vec3()) == 0.0
+            && bodies.all(keeps)
+            && momenta.all(spins)
     }
 
     /// All angles zero, at rest at the origin.
@@ -179,7 +162,7 @@ impl Plane {
     }
 
     /// $a_i$ and $b_i$ from the torques at the angles $\pi/2$ and 0.
-    fn weight<M: Mass>(&self, model: &ArticulatedBody<M>) -> Option<Weight> {
+    fn weight(&self, model: &ArticulatedBody) -> Option<Weight> {
         let weight = model.weight.as_ref()?;
         let torque = |i: usize, angle: SO2| {
             let (body, n) = (&self.bodies[i], self.bodies[i].normal);
@@ -194,7 +177,7 @@ impl Plane {
     }
 
     /// $\alpha_i$ is the angle of $N_p^T N_i$.
-    fn springs<M: Mass>(&self, model: &ArticulatedBody<M>) -> Option<Springs> {
+    fn springs(&self, model: &ArticulatedBody) -> Option<Springs> {
         let elastic = model.springs.as_ref()?.iter();
         let spring = |spring: &crate::springs::Spring| Spring {
             parent: spring.parent,
@@ -206,8 +189,21 @@ impl Plane {
     }
 }
 
+impl View for Plane {
+    type Inner = PlanarConfiguration;
+    type Frame = ();
+
+    fn enter(&self, outer: &State<Configuration>) -> Option<((), State<PlanarConfiguration>)> {
+        self.contains(outer).then(|| ((), self.project(outer)))
+    }
+
+    fn leave(&self, (): &(), inner: &State<PlanarConfiguration>, outer: &mut State<Configuration>) {
+        self.lift_into(inner, outer);
+    }
+}
+
 /// The bodies in their frames' planes.
-fn nodes<M: Mass>(model: &ArticulatedBody<M>, frames: &[Frame]) -> Vec<Node> {
+fn nodes(model: &ArticulatedBody, frames: &[Frame]) -> Vec<Node> {
     let bodies = model.nodes.iter().zip(&model.masses).zip(frames);
     let planar = bodies.map(|((node, mass), frame)| {
         let on = &frames[node.parent];
@@ -217,7 +213,7 @@ fn nodes<M: Mass>(model: &ArticulatedBody<M>, frames: &[Frame]) -> Vec<Node> {
             frame.project(node.at_self),
             on.project(node.lever),
         ];
-        Node::new(node.parent, frame.block(mass.matrix()), j, points)
+        Node::new(node.parent, frame.block(*mass), j, points)
     });
     planar.collect()
 }

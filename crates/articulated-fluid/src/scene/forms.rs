@@ -13,8 +13,8 @@ use crate::ellipsoid::Ellipsoid;
 
 const FORMS: &str = "either semi_axes, or mass and inertia, or total_mass and total_inertia";
 
-/// A body this close to the displaced mass, relative to its own, is neutrally buoyant.
-const NEUTRAL: f64 = 1e-12;
+/// A difference of mass and displaced mass that is the rounding of density times volume and of the numbers read, relative.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// What acts on every body.
 pub(super) struct Surroundings {
@@ -260,9 +260,10 @@ fn ellipsoid(field: &Spanned<Vec<f64>>, source: &Source) -> Result<Ellipsoid, Sc
     Ellipsoid::new(axes).map_err(|error| source.fail(field.span(), &error.to_string()))
 }
 
+/// The net mass: zero where both are equal as the decimal numbers of the file are.
 fn net(mass: f64, displaced: f64) -> f64 {
     match mass - displaced {
-        net if net.abs() <= NEUTRAL * mass => 0.0,
+        net if net.abs() <= ROUNDING * mass => 0.0,
         net => net,
     }
 }

@@ -9,7 +9,11 @@
 //! line is that of the key. Unknown keys are errors.
 //!
 //! The bodies form a tree: the first body is its root, the head, and every other one hangs by exactly
-//! one ball joint on a body that is listed before it.
+//! one ball joint on a body that is listed before it. Any body may be the first: the tree is stepped
+//! on its heaviest one.
+//!
+//! A scene that moves in a coordinate plane, with all numbers out of the plane exactly zero, is stepped
+//! in the plane. One in a tilted plane is stepped in space.
 
 mod bodies;
 mod error;

@@ -38,7 +38,7 @@ proptest! {
     #[test]
     fn both_forms_have_the_same_accelerations(sample in three_bodies()) {
         let (g, mu) = flow(&sample);
-        let (xi, _) = velocity_and_force::<J, _>(&sample.model, &g, &mu);
+        let (xi, _) = velocity_and_force::<J>(&sample.model, &g, &mu);
         let along_the_flow: Vec<f64> = xi.coordinates().into_iter().map(|x| x.partial(0)).collect();
         // Rounding of forces up to 1e2 times the condition of the inertia.
         assert_close(&along_the_flow, &accelerations(&sample), 5e-12);

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, Mass};
+use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
 use dvi::{ContinuousSystem, Derivatives, DiscreteLagrangian, Lagrangian, State};
 use lie::{
     AlgebraOver, DualOver, JET_DIRECTIONS, Jet, LieGroup, Mat3, Power, RealGroup, Rn, SO3, Scalar,
@@ -413,7 +413,7 @@ where
 /// The continuous flow through a state to first order: $\dot g = g\,\xi$, $\dot\mu = \mathrm{ad}^*_\xi \mu + \tau$.
 pub fn flow(sample: &Sample) -> (Configuration<J>, Momentum<J>) {
     let (g, mu) = (&sample.g, sample.mu());
-    let (xi, tau) = velocity_and_force::<f64, _>(&sample.model, g, &mu);
+    let (xi, tau) = velocity_and_force::<f64>(&sample.model, g, &mu);
     let mut mu_dot = Configuration::coadjoint_bracket(&xi, &mu);
     mu_dot.add_scaled(1.0, &tau);
     let lifted = g.lift::<J>();
@@ -423,8 +423,8 @@ pub fn flow(sample: &Sample) -> (Configuration<J>, Momentum<J>) {
 }
 
 /// Into storage filled with what must not survive.
-pub fn velocity_and_force<S: Scalar, M: Mass>(
-    model: &ArticulatedBody<M>,
+pub fn velocity_and_force<S: Scalar>(
+    model: &ArticulatedBody,
     g: &Configuration<S>,
     mu: &Momentum<S>,
 ) -> (Velocity<S>, Momentum<S>) {
@@ -437,8 +437,8 @@ pub fn velocity_and_force<S: Scalar, M: Mass>(
 }
 
 /// The closed derivatives, into storage filled with what must not survive.
-pub fn closed<S: Scalar, M: Mass>(
-    model: &ArticulatedBody<M>,
+pub fn closed<S: Scalar>(
+    model: &ArticulatedBody,
     g: &Configuration<S>,
     f: &Configuration<S>,
     h: S,

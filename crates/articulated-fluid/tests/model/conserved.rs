@@ -10,7 +10,7 @@ use crate::common::*;
 /// $\frac12 \langle \mu, \xi \rangle + U$, $p_x$ and $x \times p_x + \sum_i R_i p_i$ along the flow.
 fn along_the_flow(sample: &Sample) -> [J; 7] {
     let (g, mu) = flow(sample);
-    let (xi, _) = velocity_and_force::<J, _>(&sample.model, &g, &mu);
+    let (xi, _) = velocity_and_force::<J>(&sample.model, &g, &mu);
     let pairs = mu.coordinates().into_iter().zip(xi.coordinates());
     let twice = pairs.fold(J::constant(0.0), |sum, (p, x)| sum + p * x);
     let (px, orbital) = (mu.1.vec3(), g.1.vec3().cross(mu.1.vec3()));

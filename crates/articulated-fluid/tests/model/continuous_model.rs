@@ -44,7 +44,7 @@ proptest! {
     #[test]
     fn velocity_and_force_are_those_of_the_lagrangian(sample in any_sample()) {
         let Sample { model, g, xi, .. } = &sample;
-        let (velocity, force) = velocity_and_force::<f64, _>(model, g, &sample.mu());
+        let (velocity, force) = velocity_and_force::<f64>(model, g, &sample.mu());
         // Rounding times the condition of the inertia, up to a few hundred.
         assert_close(&velocity.coordinates(), &xi.coordinates(), 1e-12);
         assert_close(&force.coordinates(), &force_by_jets(&sample), 1e-12);
@@ -70,7 +70,7 @@ proptest! {
             let at_rest = value(&g.zero_algebra());
             mu.set(i, value(&sum) - value(&still) - value(&basis(i)) + at_rest);
         }
-        let (velocity, _) = velocity_and_force::<J, _>(model, &g, &mu);
+        let (velocity, _) = velocity_and_force::<J>(model, &g, &mu);
         for (i, x) in velocity.coordinates().into_iter().enumerate() {
             // As above.
             assert_close(&[x.value()], &[xi.get(i)], 1e-12);

@@ -6,7 +6,7 @@ use dvi::{Lagrangian, State};
 use lie::{AlgebraOver, LieGroup, Mat3, Power, Rn, SO2, SO3, Tangent, Vec3};
 use proptest::prelude::*;
 
-use crate::common::{attitude, spd, stiffnesses};
+use crate::common::{spd, stiffnesses};
 
 /// A tree in the plane $z = 0$, body by body, each with the frame and the motion that it is given.
 #[derive(Clone, Debug)]
@@ -107,6 +107,22 @@ impl Flat {
     }
 }
 
+/// A rotation of the coordinate axes into each other, one of 24, exactly: two axes and their signs.
+pub fn turn_of_axes(k: usize) -> SO3 {
+    let (first, other, signs) = (k % 3, k / 3 % 2, [k / 6 % 2, k / 12 % 2]);
+    let unit = |i: usize, sign: usize| {
+        let mut x = Vec3::zero();
+        x[i % 3] = 1.0 - 2.0 * sign as f64;
+        x
+    };
+    let (x, y) = (unit(first, signs[0]), unit(first + 1 + other, signs[1]));
+    SO3::from_matrix_unchecked(Mat3([x.0, y.0, x.cross(y).0]))
+}
+
+fn axes() -> impl Strategy<Value = SO3> {
+    (0..24_usize).prop_map(turn_of_axes)
+}
+
 /// Block diagonal with the third axis apart.
 fn mirrored() -> impl Strategy<Value = Mat3> {
     spd().prop_map(|a| {
@@ -126,7 +142,7 @@ fn part() -> impl Strategy<Value = Part> {
         mirrored(),
         0..8_usize,
         (point(), point()),
-        attitude(),
+        axes(),
         motion,
     )
         .prop_map(
@@ -164,7 +180,7 @@ pub fn any_flat() -> impl Strategy<Value = Flat> {
     let parts = prop::collection::vec(part(), 1..=5);
     (
         parts,
-        attitude(),
+        axes(),
         position,
         point(),
         prop::option::of(point()),
@@ -218,12 +234,11 @@ pub fn fish() -> Flat {
     }
 }
 
-/// The same motion in another place of space, the bodies in other frames.
-pub fn moved(mut flat: Flat, seed: f64) -> Flat {
-    let turn = |k: f64| SO3::exp(&Tangent([seed * k, 1.0 - seed, k - 1.3]));
-    flat.world = turn(0.7);
+/// The same motion in another coordinate plane, the bodies in other frames.
+pub fn moved(mut flat: Flat) -> Flat {
+    flat.world = turn_of_axes(7);
     for (i, part) in flat.parts.iter_mut().enumerate() {
-        part.frame = turn(1.1 + i as f64);
+        part.frame = turn_of_axes(4 + 5 * i);
     }
     flat
 }

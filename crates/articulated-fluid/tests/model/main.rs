@@ -15,3 +15,5 @@ mod planar_plane;
 mod scenes_files;
 mod springs;
 mod tree;
+mod views;
+mod views_of_scenes;

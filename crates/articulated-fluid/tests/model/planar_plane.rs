@@ -1,12 +1,12 @@
 //! The plane of a motion: found where there is one, refused with the cause where not; states in it and in space.
 
-use articulated_fluid::planar::{InPlane, NotPlanar, NotPlanarCause, Plane};
-use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
+use articulated_fluid::planar::{NotPlanar, NotPlanarCause, Plane};
+use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, Viewed};
 use dvi::{ContinuousSystem, Gauss, Integrator, Lagrangian, State, StepError, Variational};
 use lie::{LieGroup, Mat3, SO3, Tangent, Vec3, VectorSpace};
 use proptest::prelude::*;
 
-use crate::common::{self, Velocity, assert_close};
+use crate::common::{Velocity, assert_close};
 use crate::flat_trees::*;
 
 /// How far one thing is tilted out of the plane.
@@ -22,11 +22,7 @@ struct Parts {
 
 /// The fish in the frame of the coordinates or elsewhere, sinking, with one thing tilted.
 fn tilted(elsewhere: bool, tilt: impl Fn(&mut Parts, &Flat)) -> NotPlanar {
-    let flat = if elsewhere {
-        moved(fish(), 0.4)
-    } else {
-        fish()
-    };
+    let flat = if elsewhere { moved(fish()) } else { fish() };
     let model = flat.model();
     let mut parts = Parts {
         bodies: model.bodies().collect(),
@@ -118,18 +114,14 @@ fn what_is_off_the_plane_is_named_and_measured() {
 }
 
 #[test]
-fn a_plane_of_the_coordinates_is_found_exactly() {
-    let (x, y, z) = (
-        Vec3([1.0, 0.0, 0.0]),
-        Vec3([0.0, 1.0, 0.0]),
-        Vec3([0.0, 0.0, 1.0]),
-    );
+fn each_plane_of_the_coordinates_is_found_exactly() {
+    let z = Vec3([0.0, 0.0, 1.0]);
     assert_eq!(fish().plane().normal(), z);
-    let quarter = core::f64::consts::FRAC_PI_2;
-    for (axis, normal) in [(y, x), (x, y)] {
+    for k in 0..24 {
         let mut flat = fish();
-        flat.world = SO3::exp(&(axis * quarter).into());
-        assert!(flat.plane().normal().cross(normal).norm() < 1e-15);
+        flat.world = turn_of_axes(k);
+        let normal = flat.world.rotate(z);
+        assert_eq!(flat.plane().normal().dot(normal).abs(), 1.0);
     }
 }
 
@@ -146,7 +138,7 @@ fn bodies_without_a_preferred_direction_at_rest_have_a_plane() {
         at_child: at,
     };
     let alone = ArticulatedBody::new(&[ball], &[]).expect("a model");
-    let pair = ArticulatedBody::new(&[ball; 2], &[off(Vec3([0.1, 0.2, -0.3]))]).expect("a model");
+    let pair = ArticulatedBody::new(&[ball; 2], &[off(Vec3([0.1, 0.2, 0.0]))]).expect("a model");
     let concentric = ArticulatedBody::new(&[ball; 2], &[off(Vec3::zero())]).expect("a model");
     for model in [alone, pair, concentric] {
         let g = model.aligned();
@@ -217,13 +209,10 @@ fn a_slow_spin_of_a_fast_body_is_judged_as_a_spin() {
     }
 }
 
-/// A chain along its first axis at rest, the vertical plane in which it falls at 30 degrees about z.
-#[test]
-fn the_vertical_plane_of_a_chain_released_from_rest_is_found() {
-    let azimuth = core::f64::consts::FRAC_PI_6;
+/// A chain along its first axis at rest, the vertical plane in which it falls at this angle about z.
+fn falling(azimuth: f64, mut check: impl FnMut(Result<Plane, NotPlanar>)) {
     let tilted = SO3::exp(&Tangent([0.0, 0.3, 0.0]));
     let attitude = SO3::exp(&Tangent([0.0, 0.0, azimuth])).compose(&tilted);
-    let expected = Vec3([-azimuth.sin(), azimuth.cos(), 0.0]);
     let link = |i: usize| Joint {
         parent: i,
         child: i + 1,
@@ -243,10 +232,24 @@ fn the_vertical_plane_of_a_chain_released_from_rest_is_found() {
             g.0 = attitude;
             g.2.iter_mut().for_each(|r| *r = attitude);
             let mu = g.zero_dual();
-            let plane = Plane::find(&model, &State { t: 0.0, g, mu }).expect("a plane");
-            assert!(plane.normal().cross(expected).norm() < 1e-14);
+            check(Plane::find(&model, &State { t: 0.0, g, mu }));
         }
     }
+}
+
+#[test]
+fn the_vertical_plane_of_a_chain_released_from_rest_is_found() {
+    let y = Vec3([0.0, 1.0, 0.0]);
+    falling(0.0, |found| assert_eq!(found.expect("a plane").normal(), y));
+}
+
+#[test]
+fn a_plane_that_is_no_coordinate_plane_is_not_taken() {
+    falling(core::f64::consts::FRAC_PI_6, |found| {
+        let refused = found.expect_err("a tilted plane");
+        assert_eq!(refused.what, NotPlanarCause::AttitudeOffPlane);
+        assert!((refused.defect - 0.5).abs() < 1e-15, "{refused}");
+    });
 }
 
 /// Three bodies pinned by their centres to a float that carries them: their weights balance, but for rounding.
@@ -293,7 +296,7 @@ fn a_state_of_another_model_and_one_not_finite_are_refused() {
         let error = Plane::find(&model, &state).expect_err("no state");
         assert_eq!(error.what, NotPlanarCause::State);
         let plane = fish().plane();
-        let mut integrator = InPlane::new(plane.clone(), Variational::with_inertia(plane.model()));
+        let mut integrator = Viewed::new(plane.clone(), Variational::with_inertia(plane.model()));
         let mut stepped = state.clone();
         assert!(matches!(
             integrator.step(&mut stepped, 1e-3),
@@ -353,8 +356,8 @@ fn scaled(mut flat: Flat, powers: &[f64], rest: bool) -> Flat {
 
 /// A chain with angles and rates up to 1.
 fn chain(bodies: usize) -> impl Strategy<Value = Flat> {
-    let motion = prop::collection::vec((-1.0..1.0, -1.0..1.0, common::attitude()), bodies);
-    (motion, common::attitude()).prop_map(|(motion, world)| {
+    let motion = prop::collection::vec((-1.0..1.0, -1.0..1.0, 0..24_usize), bodies);
+    (motion, 0..24_usize).prop_map(|(motion, world)| {
         let [_, tail, _] = <[Part; 3]>::try_from(fish().parts).expect("three");
         let link = |(i, (angle, rate, frame))| Part {
             parent: usize::saturating_sub(i, 1),
@@ -362,12 +365,12 @@ fn chain(bodies: usize) -> impl Strategy<Value = Flat> {
             at_child: [0.9, 0.0],
             angle,
             rate,
-            frame,
+            frame: turn_of_axes(frame),
             ..tail.clone()
         };
         Flat {
             parts: motion.into_iter().enumerate().map(link).collect(),
-            world,
+            world: turn_of_axes(world),
             ..fish()
         }
     })
@@ -375,10 +378,10 @@ fn chain(bodies: usize) -> impl Strategy<Value = Flat> {
 
 #[test]
 fn what_the_motion_keeps_is_the_same_in_the_plane() {
-    let flat = moved(fish(), 0.4);
+    let flat = moved(fish());
     let (full, plane, mut state) = (flat.model(), flat.plane(), flat.state());
     let model = plane.model();
-    let mut integrator = InPlane::new(plane.clone(), Gauss::<_, 4>::new(plane.model()));
+    let mut integrator = Viewed::new(plane.clone(), Gauss::<_, 4>::new(plane.model()));
     let start = full.conserved(&state).expect("finite");
     for _ in 0..200 {
         integrator.step(&mut state, 0.05).expect("a step");
@@ -406,7 +409,7 @@ fn what_the_motion_keeps_is_the_same_in_the_plane() {
 #[test]
 fn a_step_refused_or_seen_ahead_leaves_all_as_it_was() {
     let (plane, start) = (fish().plane(), fish().state());
-    let made = || InPlane::new(plane.clone(), Gauss::<_, 4>::new(plane.model()));
+    let made = || Viewed::new(plane.clone(), Gauss::<_, 4>::new(plane.model()));
     let (mut plain, mut disturbed) = (made(), made());
     let (mut a, mut b) = (start.clone(), start.clone());
     for _ in 0..20 {
@@ -438,4 +441,34 @@ fn a_step_refused_or_seen_ahead_leaves_all_as_it_was() {
         Err(StepError::Misfit { .. })
     ));
     assert_eq!(off, before);
+}
+
+/// What may lead out of the plane of [`fish`], however little.
+#[test]
+fn no_part_out_of_the_plane_is_too_small() {
+    use NotPlanarCause::*;
+    for size in [1e-300, 1e-200, 1e-100, 1e-30, 1e-17, 1e-12] {
+        let refused = |tilt: &dyn Fn(&mut Parts)| tilted(false, |parts, _| tilt(parts)).what;
+        let out = Vec3([0.0, 0.0, size]);
+        let coupling = Mat3([[0.0, 0.0, size], [0.0; 3], [size, 0.0, 0.0]]);
+        let causes = [
+            refused(&|parts| parts.bodies[1].mass = parts.bodies[1].mass + coupling),
+            refused(&|parts| parts.bodies[2].inertia = parts.bodies[2].inertia + coupling),
+            refused(&|parts| parts.joints[0].at_child += out),
+            refused(&|parts| parts.joints[1].at_parent += out),
+            refused(&|parts| parts.xi.2[1][0] = size),
+            refused(&|parts| parts.xi.1[2] = size),
+            refused(&|parts| parts.gravity += out),
+        ];
+        let expected = [
+            MassCoupling,
+            InertiaCoupling,
+            JointOffPlane,
+            JointOffPlane,
+            SpinOffPlane,
+            VelocityOffPlane,
+            GravityOffPlane,
+        ];
+        assert_eq!(causes, expected, "{size:e}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Trees of up to 30 bodies, and one of 1000: the recursions against dense references, and motions that are known.
 
-use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, Mass, Scene};
-use dvi::{DiscreteLagrangian, Inertia, Integrator, Lagrangian, State, Variational, laws};
+use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, Scene};
+use dvi::{Inertia, Integrator, Lagrangian, State, Variational, laws};
 use lie::{Jet, LieGroup, Mat3, Power, SO3, Tangent, Vec3, VectorSpace};
 use proptest::prelude::*;
 
@@ -33,8 +33,8 @@ fn norm(x: &[f64]) -> f64 {
 }
 
 /// Steps by the model's inertia.
-fn run<M: Mass>(
-    model: &ArticulatedBody<M>,
+fn run(
+    model: &ArticulatedBody,
     start: &State<Configuration>,
     h: f64,
     steps: usize,
@@ -98,7 +98,7 @@ proptest! {
 
     #[test]
     fn velocity_and_force_are_those_of_the_lagrangian(sample in tree()) {
-        let (xi, tau) = velocity_and_force::<f64, _>(&sample.model, &sample.g, &sample.mu());
+        let (xi, tau) = velocity_and_force::<f64>(&sample.model, &sample.g, &sample.mu());
         // Rounding times the condition of the inertia, up to 1e4.
         assert_close(&xi.coordinates(), &sample.xi.coordinates(), 2e-12);
         let expected = force_by_jets(&sample);
@@ -108,7 +108,7 @@ proptest! {
     #[test]
     fn the_energy_is_constant_along_the_flow(sample in tree()) {
         let (g, mu) = flow(&sample);
-        let (xi, _) = velocity_and_force::<J, _>(&sample.model, &g, &mu);
+        let (xi, _) = velocity_and_force::<J>(&sample.model, &g, &mu);
         let pairs = mu.coordinates().into_iter().zip(xi.coordinates());
         let twice = pairs.fold(J::constant(0.0), |sum, (p, x)| sum + p * x);
         let energy = twice * J::constant(0.5) + sample.potential(&g);
@@ -179,7 +179,7 @@ fn a_chain_of_six_is_of_order_1() {
 #[test]
 fn a_chain_of_a_thousand_steps_and_keeps_its_momenta() {
     let (model, start) = chain(1000);
-    let (xi, tau) = velocity_and_force::<f64, _>(&model, &start.g, &start.mu);
+    let (xi, tau) = velocity_and_force::<f64>(&model, &start.g, &start.mu);
     let size = norm(&start.mu.coordinates());
     let back = Lagrangian::legendre(&model, 0.0, &start.g, &xi);
     assert_close(&back.coordinates(), &start.mu.coordinates(), 1e-14 * size);
@@ -232,40 +232,6 @@ proptest! {
             assert_close(&[about(now.angular)], &[about(start.angular)], 2e-14 * size * reach);
             angular += Sample { g: state.g.clone(), ..sample.clone() }.moment() * H;
         }
-    }
-
-    #[test]
-    fn numbers_for_masses_make_the_same_model(sample in tree()) {
-        const H: f64 = 0.005;
-        let dry = sample.dry();
-        let (model, Sample { g, f, .. }) = (&dry.model, &dry);
-        let numbers = model.isotropic().expect("a dry model");
-        prop_assert_eq!(numbers.bodies().collect::<Vec<_>>(), model.bodies().collect::<Vec<_>>());
-        let value = DiscreteLagrangian::value(model, g, f, H);
-        assert_close(&[DiscreteLagrangian::value(&numbers, g, f, H)], &[value], 1e-13 * value.abs());
-        let (a, b) = (closed(model, g, f, H), closed(&numbers, g, f, H));
-        let (d_f, d_g) = (a.d_f.coordinates(), a.d_g.coordinates());
-        assert_close(&b.d_f.coordinates(), &d_f, 1e-14 * norm(&d_f));
-        assert_close(&b.d_g.coordinates(), &d_g, 1e-14 * norm(&d_g));
-        let energy = Lagrangian::value(model, g, &dry.xi);
-        assert_close(&[Lagrangian::value(&numbers, g, &dry.xi)], &[energy], 1e-13 * energy.abs());
-        let (xi, tau) = velocity_and_force::<f64, _>(&numbers, g, &dry.mu());
-        let (same, expected) = velocity_and_force::<f64, _>(model, g, &dry.mu());
-        assert_close(&xi.coordinates(), &same.coordinates(), 1e-13);
-        let expected = expected.coordinates();
-        assert_close(&tau.coordinates(), &expected, 1e-13 * norm(&expected));
-        let start = dry.state();
-        // Two solutions of the step's tolerance.
-        assert_same(&run(&numbers, &start, H, 1)[1], &run(model, &start, H, 1)[1], 2e-13);
-    }
-
-    #[test]
-    fn an_anisotropic_mass_is_no_number(sample in small(), body in 0..5_usize) {
-        prop_assert!(sample.model.isotropic().is_none());
-        let mut dry = sample.dry();
-        let body = body.min(dry.bodies.len() - 1);
-        dry.bodies[body].mass[(2, 2)] *= 1.0 + 1e-15;
-        prop_assert!(dry.rebuilt().model.isotropic().is_none());
     }
 
     #[test]
@@ -331,38 +297,6 @@ proptest! {
             assert_same(there, &rename(here), 1e-12);
         }
     }
-}
-
-/// Three bodies in line, the first in the middle, without a fluid.
-fn dry_star() -> (ArticulatedBody, State<Configuration>) {
-    let body = |mass: f64, inertia: [f64; 3]| Body {
-        mass: Mat3::diagonal([mass; 3]),
-        inertia: Mat3::diagonal(inertia),
-    };
-    let tail = body(0.25, [0.1445, 1.3625, 1.282]);
-    let joint = |child: usize, side: f64| Joint {
-        parent: 0,
-        child,
-        at_parent: Vec3([side * 8.8, 0.0, 0.0]),
-        at_child: Vec3([-side * 5.5, 0.0, 0.0]),
-    };
-    let bodies = [body(1.0, [1.25, 13.6, 13.25]), tail, tail];
-    let model = build(&bodies, &[joint(1, 1.0), joint(2, -1.0)], &None);
-    let rates = Power::new(vec![Tangent([0.1, -0.3, -0.2]), Tangent([-0.1, 0.4, -0.6])]);
-    let xi = (Tangent([0.2, 0.1, 0.5]), Tangent([0.0; 3]), rates);
-    let start = model.state(0.0, model.aligned(), &xi);
-    (model, start)
-}
-
-#[test]
-fn ten_seconds_with_numbers_for_masses_are_the_same() {
-    let (model, start) = dry_star();
-    let numbers = model.isotropic().expect("a dry model");
-    let (a, b) = (
-        run(&model, &start, 1e-3, 10_000),
-        run(&numbers, &start, 1e-3, 10_000),
-    );
-    assert_same(&a[10_000], &b[10_000], 1e-10);
 }
 
 #[test]

@@ -57,6 +57,11 @@ fn check_scene(scene: &Scene) -> Result<(), TestCaseError> {
     if let Ok(state) = scene.initial_state() {
         prop_assert!(state.g.is_finite() && state.mu.max_magnitude().is_finite());
     }
+    if let Ok(smallest) = scene.smallest() {
+        let start = smallest.start;
+        prop_assert!(start.g.is_finite() && start.mu.max_magnitude().is_finite());
+        prop_assert_eq!(smallest.account.reductions.len(), 6);
+    }
     prop_assert!(scene.overlaps().iter().all(|overlap| overlap.depth > 0.0));
     Ok(())
 }

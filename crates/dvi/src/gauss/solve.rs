@@ -6,7 +6,8 @@ use super::newton::SweepNewton;
 use super::sweep::Side;
 use super::tableau::Tableau;
 use super::work::Work;
-use crate::numbers::{larger, relative};
+use crate::numbers::larger;
+use crate::sizes::relative_beside;
 use crate::{ContinuousSystem, Hint, State, StepReport};
 
 /// Sweeps before the plain iteration is given up.
@@ -157,6 +158,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         (state, h): Start<C>,
     ) -> Result<(), Failure> {
         self.sweep.start_at(&state.g);
+        self.sweep.weigh(system, (state.t, &state.mu));
         let known = self
             .predictor
             .guess::<C, R>((system, tableau), (state, h), &mut self.sweep);
@@ -263,8 +265,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         let noise = sweep.noise_of_momentum(h);
         let kinds = parts.iter().zip(sizes).zip(noise);
         kinds.fold(0.0, |found, ((part, size), noise)| {
-            let part = if *part <= noise { 0.0 } else { *part };
-            larger(found, relative(part, *size))
+            larger(found, relative_beside(*part, *size, noise))
         })
     }
 

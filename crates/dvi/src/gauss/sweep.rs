@@ -8,8 +8,8 @@ use num_traits::{One, Zero};
 use super::stages::{Coefficients, Stages};
 use super::tableau::Tableau;
 use crate::ContinuousSystem;
-use crate::numbers::{larger, relative};
-use crate::sizes::{Kinds, NOISE, shaken};
+use crate::numbers::larger;
+use crate::sizes::{Kinds, NOISE, Weights, relative_beside, shaken};
 
 /// Sweeps that bring guessed velocities to the chart: each leaves about a hundredth of the error.
 const CHART_SWEEPS: usize = 3;
@@ -132,6 +132,8 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     g: Over<C::Group, S>,
     workspace: C::Workspace<S>,
     pub(super) kinds: Kinds,
+    /// Made at the first step.
+    weights: Option<Weights>,
     change: Change<S>,
     /// What rounding makes of no change, in the rates of each kind; zero where that has not been looked at.
     noise: Vec<[f64; 2]>,
@@ -200,6 +202,21 @@ impl<S: Batch> Change<S> {
     }
 }
 
+impl<S: Batch<Item = f64>> Change<S> {
+    /// Of all items.
+    fn of(&self, kind: usize) -> [Largest<f64>; 2] {
+        // What is not a number is in `poison`; one instruction a number, where `larger` takes three.
+        let largest = |x: &S| {
+            let items = S::items(core::slice::from_ref(x)).iter();
+            items.fold(0.0, |a, b| if *b > a { *b } else { a })
+        };
+        self.kinds[kind].map(|of| Largest {
+            change: largest(&of.change),
+            size: largest(&of.size),
+        })
+    }
+}
+
 impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     pub(super) fn new(system: &C, tableau: &Tableau, g: &Over<C::Group, S::Item>) -> Self {
         let (stages, dim) = (tableau.nodes.len(), g.zero_dual().dim());
@@ -229,6 +246,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             noise: vec![[0.0; 2]; kinds.count],
             heard: 0,
             kinds,
+            weights: None,
             rates: vec![S::zero(); dim],
         }
     }
@@ -549,26 +567,58 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         finite(&self.xi) && finite(&self.tau)
     }
 
+    /// Finds what brings the kinds of coordinates to one unit, by what the velocity answers to small momenta.
+    pub(super) fn weigh(&mut self, system: &C, (t, mu): (f64, &<C::Group as LieGroup>::Dual)) {
+        /// Of the momentum, or of its unit where there is none.
+        const SMALL: f64 = 1.0 / 1024.0;
+        if self.weights.is_some() {
+            return;
+        }
+        let size = match mu.max_magnitude() {
+            0.0 => SMALL,
+            size => SMALL * size,
+        };
+        let kinds = self.kinds.clone();
+        let mut moved = mu.clone();
+        let mut velocity = |add: f64, i: usize| {
+            moved.copy_from(mu);
+            moved.set(i, mu.get(i) + add);
+            self.rates_at(system, t, &moved);
+            self.xi.get(0, i)
+        };
+        let inertia = |i: usize| size / (velocity(size, i) - velocity(0.0, i)).abs();
+        self.weights = Some(Weights::new(&kinds, inertia));
+    }
+
     /// The largest change of the rates in the last sweep, in the kind of coordinates where it is largest: of $\dot c$ relative to it, of
     /// $h \dot\pi$ to the momentum. A change that noise explains is none.
     pub(super) fn change(&self, h: f64) -> f64 {
-        // What is not a number is in `poison`; one instruction a number, where `larger` takes three.
-        let largest = |x: &S| {
-            let items = S::items(core::slice::from_ref(x)).iter();
-            items.fold(0.0, |a, b| if *b > a { *b } else { a })
-        };
-        let kinds = self.change.kinds.iter().zip(&self.noise);
-        let found = kinds.fold(0.0, |found, ([c_dot, pi_dot], noise)| {
-            let change = |of: &Largest<S>, noise: f64| {
-                let change = largest(&of.change);
-                if change <= NOISE * noise { 0.0 } else { change }
-            };
-            let c = relative(change(c_dot, noise[0]), largest(&c_dot.size));
-            let pi = relative(change(pi_dot, noise[1]) * h.abs(), largest(&pi_dot.size));
+        let found = (0..self.kinds.count).fold(0.0, |found, kind| {
+            let noise = self.noise[kind].map(|noise| NOISE * noise);
+            let beside = self.beside(kind);
+            let [c, pi] = self.change.of(kind).map(|of| [of.change, of.size]);
+            let c = relative_beside(c[0], c[1], larger(noise[0], beside[0]));
+            let pi = relative_beside(
+                pi[0] * h.abs(),
+                pi[1],
+                larger(noise[1] * h.abs(), beside[1]),
+            );
             larger(found, larger(c, pi))
         });
         let poison = core::slice::from_ref(&self.change.poison);
         found + S::items(poison).iter().sum::<f64>()
+    }
+
+    /// What is rounding beside the other kinds, of the rates $\dot c$ and of the momenta.
+    fn beside(&self, kind: usize) -> [f64; 2] {
+        let Some(weights) = &self.weights else {
+            return [0.0; 2];
+        };
+        let size = |which: usize| move |kind: usize| self.change.of(kind)[which].size;
+        [
+            weights.beside_velocities(size(0), kind),
+            weights.beside_momenta(size(1), kind),
+        ]
     }
 
     /// Whether all rates of the last evaluation are finite.
@@ -587,9 +637,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         (0..self.blocks.len()).any(|k| (0..S::ITEMS).any(|lane| outside(k, lane)))
     }
 
-    /// How much of a momentum of each kind rounding makes in a step, as far as that has been looked at.
+    /// How much of a momentum of each kind is rounding in a step, as far as that is known.
     pub(super) fn noise_of_momentum(&self, h: f64) -> impl Iterator<Item = f64> + '_ {
-        self.noise.iter().map(move |[_, pi]| NOISE * h.abs() * pi)
+        let noises = self.noise.iter().enumerate();
+        noises.map(move |(kind, [_, pi])| larger(NOISE * h.abs() * pi, self.beside(kind)[1]))
     }
 
     /// Finds what rounding makes of the rates at the stages' places: how much these change where every number that they follow from moves in
@@ -604,12 +655,9 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         self.start_at(&C::Group::convert::<f64, f64>(g, |x| shaken(x, time)));
         self.evaluate::<R>(system, (t, h));
         self.start_at(g);
-        let largest = |x: &S| {
-            let items = S::items(core::slice::from_ref(x)).iter();
-            items.fold(0.0, |a, b| larger(a, *b))
-        };
-        for (noise, changes) in self.noise.iter_mut().zip(&self.change.kinds) {
-            *noise = [0, 1].map(|which| larger(noise[which], largest(&changes[which].change)));
+        for (kind, noise) in self.noise.iter_mut().enumerate() {
+            let [c, pi] = self.change.of(kind);
+            *noise = [larger(noise[0], c.change), larger(noise[1], pi.change)];
         }
     }
 

@@ -84,8 +84,9 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     /// The largest error of a solved step, relative; unless set, 1e-13 for up to 12 coordinates and growing as their root, as rounding
     /// does.
     ///
-    /// Each rotation and each vector of a product is judged by itself, so that neither units nor the ratio of masses matter: its residual
-    /// relative to its momentum, or the correction that its residual asks for relative to its displacement. Unless set, a residual that no
+    /// Coordinates of one unit are judged together, and each rotation and each vector of a product by itself to ten times the tolerance, so
+    /// that neither units nor the ratio of masses matter: by the residual relative to the momentum, or by the correction that it asks for
+    /// relative to the displacement. Unless set, a residual that no
     /// longer shrinks is also taken for solved where rounding explains it: where it is at most 16 times what moving every number of the
     /// state by two units of its last place makes of it.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
@@ -104,7 +105,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     /// As [`step`](Integrator::step).
     pub fn displacement(&mut self, state: &State<L::Group>, h: f64) -> Result<L::Group, StepError> {
         self.solve(state, h)?;
-        Ok(self.work(&state.g).balance.f.clone())
+        Ok(self.work(state.t, &state.g).balance.f.clone())
     }
 
     /// The pair $(g_k, f_k)$ of a state and a step size, where the Lagrangian form starts.
@@ -149,9 +150,9 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         };
         finite(&next.g)?;
         let report = self.solve(&next, *h)?;
-        finite(&self.work(&next.g).balance.f)?;
+        finite(&self.work(next.t, &next.g).balance.f)?;
         self.accept(*h);
-        f.clone_from(&self.work(&next.g).balance.f);
+        f.clone_from(&self.work(next.t, &next.g).balance.f);
         (*t, *g) = (next.t, next.g);
         Ok(report)
     }
@@ -160,7 +161,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     fn advance(&mut self, state: &mut State<L::Group>, h: f64) -> Result<(), StepError> {
         let (normalizes, step, t) = (self.normalizes(), self.steps, state.t);
         let (lagrangian, work) = (&self.lagrangian, &mut self.work);
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, &state.g));
+        let work = work.get_or_insert_with(|| Work::new(lagrangian, state.t, &state.g));
         state.g.compose_into(&work.balance.f, &mut work.next);
         if normalizes {
             work.next.normalize();
@@ -195,9 +196,9 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         }
     }
 
-    fn work(&mut self, g: &L::Group) -> &mut Work<L, M> {
+    fn work(&mut self, t: f64, g: &L::Group) -> &mut Work<L, M> {
         self.work
-            .get_or_insert_with(|| Work::new(&self.lagrangian, g))
+            .get_or_insert_with(|| Work::new(&self.lagrangian, t, g))
     }
 
     /// Whether a step of size `h` from `g` at time `t` makes sense at all.
@@ -221,10 +222,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         self.check(t, h, &state.g)?;
         let fits = |work: &Work<L, M>| work.next.same_shape(&state.g);
         if !self.work.as_ref().is_some_and(fits) {
-            self.work = Some(Work::new(&self.lagrangian, &state.g));
+            self.work = Some(Work::new(&self.lagrangian, t, &state.g));
         }
         let (lagrangian, work) = (&self.lagrangian, &mut self.work);
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, &state.g));
+        let work = work.get_or_insert_with(|| Work::new(lagrangian, state.t, &state.g));
         let shape = &work.balance.residual;
         if !shape.same_shape(&state.mu) {
             let (expected, found) = (shape.dim(), state.mu.dim());
@@ -322,7 +323,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
     fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
         self.solve(state, h)?;
         let (step, t) = (self.steps, state.t);
-        let balance = &self.work(&state.g).balance;
+        let balance = &self.work(state.t, &state.g).balance;
         let ahead = State {
             t: state.t + h,
             g: state.g.compose(&balance.f),
@@ -357,7 +358,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> FirstVariation
             linearised,
             ..
         } = self;
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, &state.g));
+        let work = work.get_or_insert_with(|| Work::new(lagrangian, state.t, &state.g));
         let fits = |known: &Linearised<L::Group>| known.fits(&state.g);
         let mut linearised = linearised
             .take()

@@ -4,15 +4,17 @@ use lie::{LieGroup, RealGroup, Retraction, VectorSpace};
 
 use crate::balance::Balance;
 use crate::numbers::larger;
-use crate::sizes::{Relative, Sizes, shake, shaken};
+use crate::sizes::{Kinds, Relative, Sizes, Weights, shake, shaken};
 use crate::solver::{Algebra, Dual, StepSolver};
 use crate::warm_start::WarmStart;
-use crate::{DiscreteLagrangian, State, StepReport};
+use crate::{Derivatives, DiscreteLagrangian, State, StepReport};
 
 /// Evaluations of the balance before a step is given up.
 const MAX_ITERATIONS: u32 = 60;
 /// A residual below this is one that only rounding keeps from the tolerance.
 const ROUNDING: f64 = 1e-12;
+/// How many times the tolerance a single block may be left at, relative to its own momentum.
+const BLOCKS: f64 = 10.0;
 /// A residual that shrinks by less than this factor, in one iteration and in two, stands.
 const STANDS: f64 = 0.9;
 /// How often rounding is measured in one iteration, at most: it costs two evaluations.
@@ -60,10 +62,17 @@ struct Shaken<G: RealGroup> {
 /// When a step is solved.
 #[derive(Clone, Copy)]
 pub(super) struct Goal {
-    /// The largest residual, relative to the momenta of its block.
+    /// The largest residual, relative to the momenta of its kind.
     pub(super) tolerance: f64,
     /// Whether a residual that rounding explains is enough.
     pub(super) or_rounding: bool,
+}
+
+impl Goal {
+    fn is_reached(&self, residual: Relative) -> bool {
+        let Self { tolerance, .. } = *self;
+        residual.by_kind <= tolerance && residual.by_block <= BLOCKS * tolerance
+    }
 }
 
 /// What an iteration has led to.
@@ -125,11 +134,12 @@ pub(super) fn is_rounding(residual: f64, tolerance: f64) -> bool {
 }
 
 impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
-    pub(super) fn new(lagrangian: &L, g: &L::Group) -> Self {
+    pub(super) fn new(lagrangian: &L, t: f64, g: &L::Group) -> Self {
         let (c, solver) = (g.zero_algebra(), M::allocate(lagrangian, g));
+        let weights = weights(lagrangian, t, g);
         Self {
             balance: Balance::new(g),
-            sizes: Sizes::new(g, solver.exact(lagrangian)),
+            sizes: Sizes::new(g, solver.exact(lagrangian), weights),
             warm: WarmStart::new(g),
             coordinates: vec![0.0; c.dim()],
             delta: c.clone(),
@@ -244,7 +254,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             let now = self.residual();
             let residual = now.by_kind;
             let slow = progress.is_slow(now, M::SLOW);
-            let mut solved = now.by_block <= goal.tolerance;
+            let mut solved = goal.is_reached(now);
             if !solved && goal.or_rounding && measured < MEASUREMENTS && progress.stands(now) {
                 measured += 1;
                 solved = self.is_noise::<R>(lagrangian, (state, h), (goal.tolerance, measured));
@@ -318,7 +328,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             self.set_scales(state);
         }
         let now = self.residual();
-        let holds = now.by_block <= goal.tolerance || now.by_kind <= 2.0 * found.by_kind;
+        let holds = goal.is_reached(now) || now.by_kind <= 2.0 * found.by_kind;
         // The iteration contracts: the solution's matrix has the signs of the one that it is found by.
         (iterations == 0 || holds).then(|| Ended {
             report: StepReport {
@@ -431,6 +441,25 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         }
         CYCLIC_ITERATIONS + 1
     }
+}
+
+/// By what the momentum answers to small displacements in a short step.
+fn weights<L: DiscreteLagrangian>(lagrangian: &L, t: f64, g: &L::Group) -> Weights {
+    /// s.
+    const SHORT: f64 = 1e-6;
+    const SMALL: f64 = 1e-9;
+    let (mut c, mut f) = (g.zero_algebra(), g.clone());
+    let mut derivatives = Derivatives::new(g);
+    let mut momentum = |displacement: f64, i: usize| {
+        c.set_zero();
+        c.set(i, displacement);
+        L::Group::cayley_into(&c, &mut f);
+        lagrangian.derivatives(t, g, &f, SHORT, &mut derivatives);
+        derivatives.d_f.get(i)
+    };
+    Weights::new(&Kinds::of(g), |i| {
+        (momentum(SMALL, i) - momentum(0.0, i)).abs()
+    })
 }
 
 impl Ended {

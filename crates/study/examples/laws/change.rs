@@ -2,7 +2,7 @@
 
 use articulated_fluid::Scene;
 use articulated_fluid::scene::{SceneJoint, StartVelocity};
-use lie::{SO3, Vec3};
+use lie::{LieGroup, SO3, Vec3};
 
 /// Factors of the units of length, mass and time.
 #[derive(Clone, Copy)]

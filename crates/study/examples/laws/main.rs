@@ -9,8 +9,7 @@ mod random;
 
 use std::process::ExitCode;
 
-use articulated_fluid::{Configuration, Scene};
-use dvi::{Integrator, State};
+use articulated_fluid::Scene;
 use lie::{LieGroup, SO3, Tangent, Vec3};
 use study::methods::Method;
 use study::watch::attitudes;

@@ -3,12 +3,15 @@
 use core::fmt;
 use std::time::{Duration, Instant};
 
-use articulated_fluid::{ArticulatedBody, Configuration};
+use articulated_fluid::{ArticulatedBody, Configuration, ModelError, Scene};
 use dvi::State;
 
 use super::{Contender, Control, Failure, adaptive, fixed, piloted};
 
 /// A model, where it starts and how long it runs: the same for every contender.
+///
+/// Of a scene it is the [smallest](articulated_fluid::Smallest) model in space: on the heaviest body, and in a frame that moves with
+/// the mass centre where that is exact. Attitudes and their errors are the scene's own; places are relative to that frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// The model in space.
@@ -74,6 +77,20 @@ pub struct Cost {
 }
 
 impl Problem {
+    /// The problem of a scene.
+    ///
+    /// # Errors
+    /// As [`Scene::initial_state`].
+    pub fn of(scene: &Scene, until: f64) -> Result<Self, ModelError> {
+        let smallest = scene.smallest()?;
+        let (model, start) = (smallest.model, smallest.start);
+        Ok(Self {
+            model,
+            start,
+            until,
+        })
+    }
+
     /// The times $k T / n$, $k = 0, \dots, n$, with $T$ the end and $n$ = `samples`.
     pub fn times(&self, samples: u64) -> Vec<f64> {
         let time = |k| self.until * k as f64 / samples as f64;

@@ -6,7 +6,7 @@
 
 mod coefficients;
 
-use articulated_fluid::{ArticulatedBody, Configuration, Mass};
+use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::{ContinuousSystem, State};
 use lie::Batch;
 use lie::lanes::{self, Job};
@@ -52,8 +52,8 @@ pub struct Run {
 /// assert_eq!(run.end.t, 1.0);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
-pub fn integrate<M: Mass>(
-    model: &ArticulatedBody<M>,
+pub fn integrate(
+    model: &ArticulatedBody,
     start: &State<Configuration>,
     duration: f64,
     tolerance: Tolerance,
@@ -72,8 +72,8 @@ pub fn integrate<M: Mass>(
 ///
 /// # Errors
 /// As [`integrate`].
-pub fn sample<'a, M: Mass>(
-    model: &'a ArticulatedBody<M>,
+pub fn sample<'a>(
+    model: &'a ArticulatedBody,
     start: &'a State<Configuration>,
     duration: f64,
     (every, each): (f64, &'a mut Watcher<'a>),
@@ -103,8 +103,8 @@ pub fn sample<'a, M: Mass>(
     lanes::run_single(march)
 }
 
-struct March<'a, M> {
-    model: &'a ArticulatedBody<M>,
+struct March<'a> {
+    model: &'a ArticulatedBody,
     start: &'a State<Configuration>,
     duration: f64,
     tolerance: Tolerance,
@@ -113,11 +113,11 @@ struct March<'a, M> {
     each: &'a mut Watcher<'a>,
 }
 
-impl<M: Mass> Job for March<'_, M> {
+impl Job for March<'_> {
     type Output = Result<Run, BaselineError>;
 
     fn run<S: Batch<Item = f64>>(self) -> Self::Output {
-        let rates = RightHandSide::<M, S>::new(self.model, self.start);
+        let rates = RightHandSide::<S>::new(self.model, self.start);
         let mut pair = Pair::new(rates, self.tolerance, self.y);
         let (mut t, until) = (0.0, self.duration);
         let mut h = pair.first_step(until);
@@ -174,8 +174,8 @@ impl<M: Mass> Job for March<'_, M> {
 }
 
 /// The stages of a step.
-struct Pair<M, S: Batch<Item = f64>> {
-    rates: RightHandSide<M, S>,
+struct Pair<S: Batch<Item = f64>> {
+    rates: RightHandSide<S>,
     tolerance: Tolerance,
     y: Vec<f64>,
     next: Vec<f64>,
@@ -186,8 +186,8 @@ struct Pair<M, S: Batch<Item = f64>> {
     refused: bool,
 }
 
-impl<M: Mass, S: Batch<Item = f64>> Pair<M, S> {
-    fn new(mut rates: RightHandSide<M, S>, tolerance: Tolerance, y: Vec<f64>) -> Self {
+impl<S: Batch<Item = f64>> Pair<S> {
+    fn new(mut rates: RightHandSide<S>, tolerance: Tolerance, y: Vec<f64>) -> Self {
         let mut k = [const { Vec::new() }; 12].map(|_: Vec<f64>| vec![0.0; y.len()]);
         rates.evaluate(&y, &mut k[0]);
         let zero = vec![0.0; y.len()];

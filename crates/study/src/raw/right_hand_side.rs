@@ -1,14 +1,14 @@
 //! Hamilton's equations on raw entries, inlined for the instructions of the scalar.
 
-use articulated_fluid::{ArticulatedBody, Configuration, Mass};
+use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::{ContinuousSystem, State};
 use lie::{AlgebraOver, Batch, DualOver, LieGroup, RealGroup, SO3, Tangent, Vec3, VectorSpace};
 
 use super::rotation;
 
 /// (18)–(20) with $\dot R_i = R_i \hat\Omega_i$, (15); one state in all items of `S`.
-pub(crate) struct RightHandSide<M, S: Batch<Item = f64>> {
-    model: ArticulatedBody<M>,
+pub(crate) struct RightHandSide<S: Batch<Item = f64>> {
+    model: ArticulatedBody,
     g: Configuration<S>,
     mu: DualOver<Configuration, S>,
     xi: AlgebraOver<Configuration, S>,
@@ -18,8 +18,8 @@ pub(crate) struct RightHandSide<M, S: Batch<Item = f64>> {
     pub(crate) evaluations: usize,
 }
 
-impl<M: Mass, S: Batch<Item = f64>> RightHandSide<M, S> {
-    pub(crate) fn new(model: &ArticulatedBody<M>, start: &State<Configuration>) -> Self {
+impl<S: Batch<Item = f64>> RightHandSide<S> {
+    pub(crate) fn new(model: &ArticulatedBody, start: &State<Configuration>) -> Self {
         let g = start.g.lift::<S>();
         Self {
             model: model.clone(),

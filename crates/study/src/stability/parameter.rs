@@ -175,11 +175,7 @@ impl Parameter {
             value,
             source,
         };
-        Ok(Problem {
-            model: scene.model().map_err(refused)?,
-            start: scene.initial_state().map_err(refused)?,
-            until,
-        })
+        Problem::of(&scene, until).map_err(refused)
     }
 }
 

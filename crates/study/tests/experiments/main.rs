@@ -10,4 +10,5 @@ mod methods;
 mod problems;
 mod stability;
 mod systems;
+mod views;
 mod work_precision;
