@@ -33,7 +33,7 @@ Examples:
 Reductions:
   translation   x leaves the unknowns: the linear momentum is constant, or grows by the weight's impulse
   joints        one body alone has none
-  weight        no gravity, or every body neutrally buoyant
+  weight        no gravity, every body neutrally buoyant, or all bodies fall alike
   root          the tree hangs on its heaviest body, if that is not the first one
   drift         in a vacuum, or for spheres, uniform motion and fall are computed exactly
   plane         one coordinate plane is a mirror of all, exactly, and the motion stays in it: rotations in SO(2)

@@ -112,8 +112,8 @@ impl<V: View, I: Integrator<Group = V::Inner>> Viewed<V, I> {
 
     /// The state in both coordinates.
     fn known(&self, state: &State<Configuration>) -> Result<Known<V>, StepError> {
-        let known = [&self.last, &self.start].into_iter().flatten();
-        if let Some(known) = known.into_iter().find(|known| known.is(state)) {
+        let mut pairs = [&self.last, &self.start].into_iter().flatten();
+        if let Some(known) = pairs.find(|pair| pair.is(state)) {
             return Ok(known.clone().at(state.t));
         }
         let (frame, inner) = self.view.enter(state).ok_or(StepError::Misfit {

@@ -452,8 +452,8 @@ fn no_part_out_of_the_plane_is_too_small() {
         let out = Vec3([0.0, 0.0, size]);
         let coupling = Mat3([[0.0, 0.0, size], [0.0; 3], [size, 0.0, 0.0]]);
         let causes = [
-            refused(&|parts| parts.bodies[1].mass = parts.bodies[1].mass + coupling),
-            refused(&|parts| parts.bodies[2].inertia = parts.bodies[2].inertia + coupling),
+            refused(&|parts| parts.bodies[1].mass += coupling),
+            refused(&|parts| parts.bodies[2].inertia += coupling),
             refused(&|parts| parts.joints[0].at_child += out),
             refused(&|parts| parts.joints[1].at_parent += out),
             refused(&|parts| parts.xi.2[1][0] = size),
