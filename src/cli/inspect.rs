@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use articulated_fluid::{Account, scene::Overlap};
+use articulated_fluid::Account;
+use articulated_fluid::scene::{Note, Overlap};
 use serde::Serialize;
 
 use super::error::CliError;
@@ -36,7 +37,11 @@ Reductions:
   weight        no gravity, or every body neutrally buoyant
   fluid         without one, or for spheres, masses are numbers instead of matrices
   plane         one mirror plane through all mass centres keeps the motion in it: rotations in SO(2)
-lgvi run takes what is exact, and lgvi run --full takes none of it: the motion is the same.";
+lgvi run takes what is exact, and lgvi run --full takes none of it: the motion is the same.
+
+Notes:
+  A matrix that is symmetric to 1e-3 of its largest entry is made symmetric, and a quaternion of
+  length 1 to 1e-3 is normalised, as published numbers have few digits. A note tells where.";
 
 /// What is told of a scene; units are in the names.
 #[derive(Serialize)]
@@ -47,6 +52,7 @@ struct Inspection<'a> {
     #[serde(flatten)]
     account: &'a Account,
     overlaps: Vec<OverlapObject<'a>>,
+    notes: &'a [Note],
 }
 
 #[derive(Serialize)]
@@ -76,6 +82,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
         bodies: loaded.scene.bodies.len(),
         account,
         overlaps: overlaps.iter().map(OverlapObject::from).collect(),
+        notes: &loaded.scene.notes,
     };
     match args.json {
         true => print::stdout(&print::json(&inspection)?),
@@ -121,5 +128,13 @@ fn text(inspection: &Inspection) -> String {
         let drops = format!("{would} out {}", reduction.drops);
         [[name, taken, &reduction.why], ["", "", &drops]].map(|row| row.map(str::to_owned))
     });
-    print::columns(&head) + "\n" + &print::columns(&lines.collect::<Vec<_>>())
+    let notes = inspection.notes.iter();
+    let notes = notes.map(|note| ["note".to_owned(), note.to_string()]);
+    let blocks = [
+        print::columns(&head),
+        print::columns(&lines.collect::<Vec<_>>()),
+        print::columns(&notes.collect::<Vec<_>>()),
+    ];
+    let told = blocks.into_iter().filter(|block| !block.is_empty());
+    told.collect::<Vec<_>>().join("\n")
 }
