@@ -1,6 +1,6 @@
 //! From a scene to a model and its initial state.
 
-use dvi::{Lagrangian, State};
+use dvi::State;
 use lie::{LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
 
 use crate::scene::{SceneBody, SceneJoint, StartVelocity};
@@ -55,7 +55,7 @@ impl Scene {
         let model = self.model()?;
         let g = self.configuration()?;
         let xi = self.velocities(&model, &g)?;
-        let mu = Lagrangian::legendre(&model, 0.0, &g, &xi);
+        let mu = model.momenta(&g, &xi);
         require(g.is_finite(), "configuration")?;
         require(mu.max_magnitude().is_finite(), "momentum")?;
         Ok(State { t: 0.0, g, mu })
@@ -83,7 +83,7 @@ impl Scene {
                 let total = model.total_mass((&g.0, &g.2)).ldl();
                 // The second time for the rounding of the first.
                 for _ in 0..2 {
-                    let linear = Lagrangian::legendre(model, 0.0, g, &xi).1.vec3();
+                    let linear = model.momenta(g, &xi).1.vec3();
                     xi.1 = Tangent((xi.1.vec3() - total.solve(linear)).0);
                 }
             }

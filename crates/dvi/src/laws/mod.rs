@@ -25,7 +25,7 @@
 //!     }
 //! }
 //!
-//! let start = Body.state(0.0, SO3::exp(&Tangent([0.3, -0.5, 1.0])), &Tangent([0.2, 1.0, 0.1]));
+//! let start = Body.state(0.0, SO3::exp(&Tangent([0.3, -0.5, 1.0])), &Tangent([0.2, 1.0, 0.1]))?;
 //! let (states, discrete) = ([start.clone()], Body.discretise::<Midpoint>());
 //! laws::check(&discrete, &states, 0.1)?;
 //! laws::check_consistency(&discrete, &Body, &states)?;
@@ -37,7 +37,7 @@
 //! let axis = dvi::RightTranslation(Tangent([0.0, 0.0, 1.0]));
 //! let error = laws::check_symmetry(&discrete, &axis, &states, 0.1).unwrap_err();
 //! assert!(error.to_string().contains("L_d(a g, (a g)^-1 a (g f)) = L_d(g, f)"));
-//! # Ok::<(), laws::LawError>(())
+//! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
 mod compare;

@@ -9,5 +9,6 @@ mod lanes;
 mod laws;
 mod naive;
 mod pilot;
+mod shapes;
 mod variational;
 mod variations;
