@@ -2,6 +2,7 @@
 
 mod common;
 mod composition;
+mod domains;
 mod forces;
 mod gauss;
 mod hamiltonian;

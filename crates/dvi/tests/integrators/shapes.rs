@@ -51,7 +51,7 @@ fn a_velocity_of_another_shape_is_refused_and_no_other() {
             let state = Rows.state(0.5, g.clone(), &xi);
             assert_eq!(state.as_ref().err().copied(), expected);
             assert_eq!(Rows.legendre(0.5, &g, &xi).err(), expected);
-            assert_eq!((&Rows).energy(0.5, &g, &xi).err(), expected);
+            assert_eq!(Rows.energy(0.5, &g, &xi).err(), expected);
             if let Ok(state) = state {
                 let twice: Vec<_> = xi.coordinates().iter().map(|v| 2.0 * v).collect();
                 assert_eq!(state.mu.coordinates(), twice);
