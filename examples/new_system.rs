@@ -27,14 +27,14 @@ impl Lagrangian for HeavyTop {
     }
 }
 
-fn main() -> Result<(), laws::LawError> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let inertia = Mat3::diagonal([1.0, 1.0, 0.5]);
     let top = HeavyTop {
         inertia,
         lever: Vec3([0.0, 0.0, 1.0]),
     };
     let leaning = SO3::exp(&Tangent([0.3, 0.0, 0.0]));
-    let start = top.state(0.0, leaning, &Tangent([0.0, 0.0, 10.0]));
+    let start = top.state(0.0, leaning, &Tangent([0.0, 0.0, 10.0]))?;
 
     // The proof: derivatives, symplecticity, reversibility; the value; the symmetries; the order.
     let discrete = (&top).discretise::<Midpoint>();
@@ -49,7 +49,7 @@ fn main() -> Result<(), laws::LawError> {
     // The simulation: a thousand seconds.
     let (mut state, mut integrator) = (start.clone(), Variational::new(&discrete));
     let (energy, mut worst) = (
-        top.energy(0.0, &start.g, &Tangent([0.0, 0.0, 10.0])),
+        top.energy(0.0, &start.g, &Tangent([0.0, 0.0, 10.0]))?,
         0.0_f64,
     );
     let system = (&top).hamiltonian();

@@ -762,6 +762,33 @@ fn inspect_tells_the_smallest_exact_model_and_why() {
 }
 
 #[test]
+fn inspect_tells_what_was_corrected_in_the_file() {
+    let directory = directory();
+    let scene = "fluid.density = 1
+body = [{ name = 'hull', semi_axes = [1, 1, 1], attitude = [1.0004, 0, 0, 0] }]";
+    fs::write(directory.path().join("s.toml"), scene).unwrap();
+    let told = json(directory.path(), &["inspect", "s.toml", "--json"]);
+    let note = &told["notes"][0];
+    assert_eq!(note["body"], "hull");
+    assert_eq!(note["key"], "body.attitude");
+    assert_eq!(note["line"], 2);
+    assert_eq!(note["correction"], "normalised");
+    assert!(
+        (note["off"].as_f64().unwrap() - 4e-4).abs() < 1e-12,
+        "{note}"
+    );
+    assert_eq!(told["notes"].as_array().unwrap().len(), 1);
+    let text = lgvi(directory.path(), &["inspect", "s.toml"]).stdout;
+    let line = "note  line 2: body.attitude of \"hull\" was normalised: its length differed from 1 by 4.0e-4";
+    assert!(self::text(&text).ends_with(&format!("\n\n{line}\n")));
+    let exact = json(
+        directory.path(),
+        &["inspect", &shipped("fish-chain"), "--json"],
+    );
+    assert_eq!(exact["notes"], Value::Array(vec![]));
+}
+
+#[test]
 fn a_reduction_that_would_be_approximate_is_refused_with_its_defect() {
     let directory = directory();
     let scene = fs::read_to_string(shipped("planar-fish")).unwrap();

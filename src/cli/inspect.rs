@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use articulated_fluid::{Account, scene::Overlap};
+use articulated_fluid::Account;
+use articulated_fluid::scene::{Note, Overlap};
 use serde::Serialize;
 
 use super::error::CliError;
@@ -37,7 +38,11 @@ Reductions:
   root          the tree hangs on its heaviest body, if that is not the first one
   drift         in a vacuum, or for spheres, uniform motion and fall are computed exactly
   plane         one coordinate plane is a mirror of all, exactly, and the motion stays in it: rotations in SO(2)
-lgvi run takes what is exact, and lgvi run --full takes none of it: the motion is the same.";
+lgvi run takes what is exact, and lgvi run --full takes none of it: the motion is the same.
+
+Notes:
+  A matrix that is symmetric to 1e-3 of its largest entry is made symmetric, and a quaternion of
+  length 1 to 1e-3 is normalised, as published numbers have few digits. A note tells where.";
 
 /// What is told of a scene; units are in the names.
 #[derive(Serialize)]
@@ -48,6 +53,7 @@ struct Inspection<'a> {
     #[serde(flatten)]
     account: &'a Account,
     overlaps: Vec<OverlapObject<'a>>,
+    notes: &'a [Note],
 }
 
 #[derive(Serialize)]
@@ -77,6 +83,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
         bodies: loaded.scene.bodies.len(),
         account,
         overlaps: overlaps.iter().map(OverlapObject::from).collect(),
+        notes: &loaded.scene.notes,
     };
     match args.json {
         true => print::stdout(&print::json(&inspection)?),
@@ -122,5 +129,13 @@ fn text(inspection: &Inspection) -> String {
         let drops = format!("{would} out {}", reduction.drops);
         [[name, taken, &reduction.why], ["", "", &drops]].map(|row| row.map(str::to_owned))
     });
-    print::columns(&head) + "\n" + &print::columns(&lines.collect::<Vec<_>>())
+    let notes = inspection.notes.iter();
+    let notes = notes.map(|note| ["note".to_owned(), note.to_string()]);
+    let blocks = [
+        print::columns(&head),
+        print::columns(&lines.collect::<Vec<_>>()),
+        print::columns(&notes.collect::<Vec<_>>()),
+    ];
+    let told = blocks.into_iter().filter(|block| !block.is_empty());
+    told.collect::<Vec<_>>().join("\n")
 }

@@ -1,6 +1,6 @@
 //! What the motion keeps, and where the joints are.
 
-use dvi::{ContinuousSystem, Lagrangian, State};
+use dvi::{ContinuousSystem, State};
 use lie::{LieGroup, SO3, Vec3};
 
 use crate::elimination::of;
@@ -59,7 +59,7 @@ impl ArticulatedBody {
         let conserved = Conserved {
             energy: kinetic + potential,
             kinetic,
-            linear: self.legendre(state.t, &state.g, &xi).1.vec3(),
+            linear: self.momenta(&state.g, &xi).1.vec3(),
             angular: spins.fold(orbital, |sum, spin| sum + spin),
         };
         let Conserved {

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use dvi::{ContinuousSystem, Lagrangian};
+use dvi::{ContinuousSystem, Lagrangian, ShapeError};
 use lie::{AlgebraOver, DualOver, LieGroup, Scalar, Vec3};
 use smallvec::SmallVec;
 
@@ -37,27 +37,11 @@ impl ArticulatedBody {
         let springs = self.springs.as_ref().map(|s| s.potential(r));
         weight.unwrap_or(S::zero()) + springs.unwrap_or(S::zero())
     }
-}
 
-impl Lagrangian for ArticulatedBody {
-    type Group = Configuration;
-
-    /// The kinetic energy (6), less the potential of the weight and of the elastic joints.
-    fn value<S: Scalar>(&self, g: &Configuration<S>, xi: &AlgebraOver<Configuration, S>) -> S {
-        let velocities = self.centre_velocities((&g.0, &g.2), xi);
-        let mut twice = S::zero();
-        for (i, (node, v)) in self.nodes.iter().zip(velocities).enumerate() {
-            let omega = of((&xi.0, &xi.2), i).vec3();
-            twice += v.dot(self.masses[i].apply(v)) + omega.dot(node.j.apply(omega));
-        }
-        twice.times(0.5) - self.potential((&g.0, &g.2), g.1.vec3())
-    }
-
-    /// (10) with the rows of (4): with $F_i = M_i V_i + \sum_k C_k F_k$,
+    /// The momenta of a velocity of the right shape, (10) with the rows of (4): with $F_i = M_i V_i + \sum_k C_k F_k$,
     /// $p_x = R_0 F_0$ and $p_i = J_i \Omega_i - d_{ip} \times F_i + \sum_k d_{ik} \times C_k F_k$.
-    fn legendre(
+    pub(crate) fn momenta(
         &self,
-        _t: f64,
         (r0, _, r): &Configuration,
         xi: &<Configuration as LieGroup>::Algebra,
     ) -> <Configuration as LieGroup>::Dual {
@@ -77,6 +61,32 @@ impl Lagrangian for ArticulatedBody {
         }
         let tails = p[1..].iter().map(|p| (*p).into()).collect();
         (p[0].into(), r0.rotate(momenta[0]).into(), tails)
+    }
+}
+
+impl Lagrangian for ArticulatedBody {
+    type Group = Configuration;
+
+    /// The kinetic energy (6), less the potential of the weight and of the elastic joints.
+    fn value<S: Scalar>(&self, g: &Configuration<S>, xi: &AlgebraOver<Configuration, S>) -> S {
+        let velocities = self.centre_velocities((&g.0, &g.2), xi);
+        let mut twice = S::zero();
+        for (i, (node, v)) in self.nodes.iter().zip(velocities).enumerate() {
+            let omega = of((&xi.0, &xi.2), i).vec3();
+            twice += v.dot(self.masses[i].apply(v)) + omega.dot(node.j.apply(omega));
+        }
+        twice.times(0.5) - self.potential((&g.0, &g.2), g.1.vec3())
+    }
+
+    /// (10), in closed form.
+    fn legendre(
+        &self,
+        _t: f64,
+        g: &Configuration,
+        xi: &<Configuration as LieGroup>::Algebra,
+    ) -> Result<<Configuration as LieGroup>::Dual, ShapeError> {
+        self.check_shape(g, xi)?;
+        Ok(self.momenta(g, xi))
     }
 
     /// The first body's position, but under a weight: $x$ enters nowhere.

@@ -1,6 +1,6 @@
 //! From a scene to a model and its initial state.
 
-use dvi::{Lagrangian, State};
+use dvi::State;
 use lie::{Cotangent, LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
 
 use crate::elimination::Velocity;
@@ -73,7 +73,7 @@ impl Scene {
             stop(model, &g, &mut xi);
         }
         require(xi.1.vec3().is_finite(), "velocity")?;
-        let mut mu = Lagrangian::legendre(model, 0.0, &g, &xi);
+        let mut mu = model.momenta(&g, &xi);
         if floats {
             // The velocity is rounded, and the momentum is not.
             mu.1 = Cotangent::zero();
@@ -107,7 +107,7 @@ fn stop(model: &ArticulatedBody, g: &Configuration, xi: &mut Velocity) {
     let total = model.total_mass((&g.0, &g.2)).ldl();
     // The second time for the rounding of the first.
     for _ in 0..2 {
-        let linear = Lagrangian::legendre(model, 0.0, g, xi).1.vec3();
+        let linear = model.momenta(g, xi).1.vec3();
         xi.1 = Tangent((xi.1.vec3() - total.solve(linear)).0);
     }
 }

@@ -145,13 +145,13 @@ const EIGHTH: [f64; 9] = [
 ///     }
 /// }
 ///
-/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]));
+/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
 /// let mut integrator = Composition::<_, 6>::new(Spring.discretise::<LeftPoint>());
 /// for _ in 0..10 {
 ///     integrator.step(&mut state, 0.5)?;
 /// }
 /// assert!((state.g.0[0] - 5.0_f64.cos()).abs() < 1e-4);
-/// # Ok::<(), dvi::StepError>(())
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 pub struct Composition<L: DiscreteLagrangian, const P: u32> {
     parts: Vec<Part<L>>,

@@ -229,7 +229,9 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
     /// The energy of a state, in joules; not a number where there is no velocity.
     pub fn energy(&self, state: &State<L::Group>) -> f64 {
         let xi = self.velocity(state);
-        self.0.energy(state.t, &state.g, &xi)
+        let energy = self.0.energy(state.t, &state.g, &xi);
+        // A velocity that was found has the shape of its configuration.
+        energy.unwrap_or(f64::NAN)
     }
 
     /// The inverse Legendre transform; the derivatives that a dual number carries follow with the Hessian kept, a level each time.

@@ -5,7 +5,7 @@ use core::ops::Range;
 use lie::{AlgebraOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 use crate::jets::{add_constant, for_each_chunk, read_partials};
-use crate::{Discretised, HamiltonianSystem, Quadrature, State};
+use crate::{Discretised, HamiltonianSystem, Quadrature, ShapeError, State};
 
 /// A Lagrangian $L(g, \xi)$ on a left-trivialised tangent bundle, $\dot g = g \xi$.
 ///
@@ -28,7 +28,7 @@ use crate::{Discretised, HamiltonianSystem, Quadrature, State};
 ///     }
 /// }
 ///
-/// let start = HeavyTop.state(0.0, SO3::exp(&Tangent([0.3, 0.0, 0.0])), &Tangent([0.0, 0.0, 10.0]));
+/// let start = HeavyTop.state(0.0, SO3::exp(&Tangent([0.3, 0.0, 0.0])), &Tangent([0.0, 0.0, 10.0]))?;
 /// let (mut state, mut integrator) = (start.clone(), Variational::new(HeavyTop.discretise::<Midpoint>()));
 /// for _ in 0..100 {
 ///     integrator.step(&mut state, 0.01)?;
@@ -36,7 +36,7 @@ use crate::{Discretised, HamiltonianSystem, Quadrature, State};
 /// // The spin about the body's axis and about the vertical are kept.
 /// assert!((state.mu[2] - start.mu[2]).abs() < 1e-12);
 /// # use lie::LieGroup;
-/// # Ok::<(), dvi::StepError>(())
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 pub trait Lagrangian {
     /// The configuration group.
@@ -59,12 +59,18 @@ pub trait Lagrangian {
     }
 
     /// The Legendre transform $\mu = \mathbf D_\xi L(t, g, \xi)$, (10); by dual numbers unless given.
+    ///
+    /// A closed form begins with `self.check_shape(g, xi)?`.
+    ///
+    /// # Errors
+    /// As [`check_shape`](Self::check_shape).
     fn legendre(
         &self,
         t: f64,
         g: &Self::Group,
         xi: &<Self::Group as LieGroup>::Algebra,
-    ) -> <Self::Group as LieGroup>::Dual {
+    ) -> Result<<Self::Group as LieGroup>::Dual, ShapeError> {
+        self.check_shape(g, xi)?;
         type J = <f64 as Scalar>::Jet;
         let (t, lifted) = (J::constant(t), g.lift::<J>());
         let (mut moved, mut mu) = (lifted.zero_algebra(), g.zero_dual());
@@ -73,23 +79,35 @@ pub trait Lagrangian {
             add_constant(&mut moved, xi);
             read_partials(&mut mu, first, self.value_at::<J>(t, &lifted, &moved));
         });
-        mu
+        Ok(mu)
     }
 
     /// The energy $\langle \mathbf D_\xi L, \xi \rangle - L$, in joules.
-    fn energy(&self, t: f64, g: &Self::Group, xi: &<Self::Group as LieGroup>::Algebra) -> f64 {
-        Self::Group::pair(&self.legendre(t, g, xi), xi) - self.value_at(t, g, xi)
+    ///
+    /// # Errors
+    /// As [`check_shape`](Self::check_shape).
+    fn energy(
+        &self,
+        t: f64,
+        g: &Self::Group,
+        xi: &<Self::Group as LieGroup>::Algebra,
+    ) -> Result<f64, ShapeError> {
+        let mu = self.legendre(t, g, xi)?;
+        Ok(Self::Group::pair(&mu, xi) - self.value_at(t, g, xi))
     }
 
     /// The state at the configuration `g` with the velocity `xi`.
+    ///
+    /// # Errors
+    /// As [`check_shape`](Self::check_shape).
     fn state(
         &self,
         t: f64,
         g: Self::Group,
         xi: &<Self::Group as LieGroup>::Algebra,
-    ) -> State<Self::Group> {
-        let mu = self.legendre(t, &g, xi);
-        State { t, g, mu }
+    ) -> Result<State<Self::Group>, ShapeError> {
+        let mu = self.legendre(t, &g, xi)?;
+        Ok(State { t, g, mu })
     }
 
     /// The coordinates of a factor $\mathbb{R}^m$ of a direct product that `g` does not enter $L$ by; see [`DiscreteLagrangian::cyclic`](crate::DiscreteLagrangian::cyclic).
@@ -100,6 +118,26 @@ pub trait Lagrangian {
     /// Whether `g` is a configuration of this system; for systems whose size is known at run time.
     fn fits(&self, _g: &Self::Group) -> bool {
         true
+    }
+
+    /// Checks that `g` is a configuration of this system and `xi` a velocity at it; both are, where sizes are known at compile time.
+    ///
+    /// # Errors
+    /// [`ShapeError::Configuration`] where `g` does not [fit](Self::fits), [`ShapeError::Velocity`] where `xi` has not the shape of `g`.
+    fn check_shape(
+        &self,
+        g: &Self::Group,
+        xi: &<Self::Group as LieGroup>::Algebra,
+    ) -> Result<(), ShapeError> {
+        let shape = g.zero_algebra();
+        if !self.fits(g) {
+            return Err(ShapeError::Configuration);
+        }
+        if !shape.same_shape(xi) {
+            let (expected, found) = (shape.dim(), xi.dim());
+            return Err(ShapeError::Velocity { expected, found });
+        }
+        Ok(())
     }
 
     /// The discrete Lagrangian by a quadrature rule, through the Cayley map: `top.discretise::<Midpoint>()`.
@@ -135,7 +173,7 @@ impl<L: Lagrangian> Lagrangian for &L {
         t: f64,
         g: &L::Group,
         xi: &<L::Group as LieGroup>::Algebra,
-    ) -> <L::Group as LieGroup>::Dual {
+    ) -> Result<<L::Group as LieGroup>::Dual, ShapeError> {
         L::legendre(self, t, g, xi)
     }
     fn cyclic(&self) -> Range<usize> {

@@ -9,7 +9,7 @@ use crate::degenerate::without_inertia;
 use crate::inertia::DENSE_LIMIT;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
-use crate::solver::{Algebra, Dual, StepSolver};
+use crate::solver::{Algebra, Dual, StepSolver, cyclic};
 use crate::{Derivatives, DiscreteLagrangian, State};
 
 type J = <f64 as Scalar>::Jet;
@@ -43,7 +43,8 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
     const SLOW: f64 = 0.2;
 
     fn allocate(lagrangian: &L, g: &L::Group) -> Self {
-        let (dim, cyclic) = (g.zero_dual().dim(), lagrangian.cyclic());
+        let dim = g.zero_dual().dim();
+        let cyclic = cyclic(lagrangian, dim);
         let (f, column) = (g.clone(), core::array::from_fn(|_| g.zero_dual()));
         let g = g.lift::<J>();
         Self {
@@ -113,7 +114,7 @@ impl<L: DiscreteLagrangian> StepSolver<L> for Newton<L::Group> {
             }
         });
         if let Some(block) = &mut self.cyclic {
-            block.copy_block(&self.matrix, lagrangian.cyclic());
+            block.copy_block(&self.matrix, cyclic(lagrangian, mu.dim()));
             block.factorise();
         }
         self.index = self.index_in_chart::<R>(c);

@@ -40,7 +40,7 @@ const BISECTIONS: u32 = 4;
 ///     }
 /// }
 ///
-/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]));
+/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
 /// let pilot = Pilot::run(&Spring.hamiltonian(), &state, 10.0, 1e-9)?;
 /// let mut integrator = pilot.integrator(Spring.hamiltonian());
 /// while state.t < 10.0 - 0.5 * pilot.h {

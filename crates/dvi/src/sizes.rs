@@ -66,6 +66,32 @@ impl Weights {
         Self(largest.iter().map(weight).collect())
     }
 
+    /// Gives a kind without any velocity the size of the others'.
+    pub(crate) fn fill_velocities(&self, sizes: &mut [f64]) {
+        let all = sizes.iter().zip(&self.0);
+        let largest = all.fold(0.0, |max, (size, weight)| larger(max, size * weight));
+        for (size, weight) in sizes.iter_mut().zip(&self.0) {
+            *size = if *size == 0.0 {
+                largest / weight
+            } else {
+                *size
+            };
+        }
+    }
+
+    /// The same of momenta.
+    pub(crate) fn fill_momenta(&self, sizes: &mut [f64]) {
+        let all = sizes.iter().zip(&self.0);
+        let largest = all.fold(0.0, |max, (size, weight)| larger(max, size / weight));
+        for (size, weight) in sizes.iter_mut().zip(&self.0) {
+            *size = if *size == 0.0 {
+                largest * weight
+            } else {
+                *size
+            };
+        }
+    }
+
     /// What is rounding, for each kind of velocities beside all.
     pub(crate) fn beside_velocities(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
         let all = self.0.iter().enumerate();

@@ -81,6 +81,12 @@ pub trait StepSolver<L: DiscreteLagrangian> {
     }
 }
 
+/// The cyclic coordinates of a Lagrangian, as far as there are such among `dim`.
+pub(crate) fn cyclic<L: DiscreteLagrangian>(lagrangian: &L, dim: usize) -> Range<usize> {
+    let cyclic = lagrangian.cyclic();
+    cyclic.start.min(dim)..cyclic.end.min(dim)
+}
+
 /// The algebra of a Lagrangian's group.
 pub(crate) type Algebra<L> = <<L as DiscreteLagrangian>::Group as LieGroup>::Algebra;
 /// The dual of the algebra of a Lagrangian's group.

@@ -86,7 +86,7 @@ pub fn symplectic_form<G: RealGroup>(mu: &G::Dual, a: &Variation<G>, b: &Variati
 ///     }
 /// }
 ///
-/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]));
+/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
 /// let mut columns = Variation::basis(&state.g);
 /// let mut integrator = Variational::new(Spring.discretise::<Midpoint>());
 /// for _ in 0..100 {
@@ -95,7 +95,7 @@ pub fn symplectic_form<G: RealGroup>(mu: &G::Dual, a: &Variation<G>, b: &Variati
 /// // The flow turns the plane of position and momentum by one radian.
 /// assert!((columns[0].eta[0] - 1.0_f64.cos()).abs() < 1e-5);
 /// assert!((columns[1].eta[0] - 1.0_f64.sin()).abs() < 1e-5);
-/// # Ok::<(), dvi::StepError>(())
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 pub trait FirstVariation: Integrator {
     /// [`step`](Integrator::step), with the variations carried to the step's end.

@@ -69,7 +69,7 @@ fn chain(n: usize) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn st
         Tangent([0.0; 3]),
         (1..n).map(rate).collect::<Power<_>>(),
     );
-    let state = Lagrangian::state(&model, 0.0, g, &xi);
+    let state = model.state(0.0, g, &xi)?;
     Ok((model, state))
 }
 

@@ -12,11 +12,15 @@ const OMEGA: Tangent<3> = Tangent([0.3, -0.5, 1.0]);
 const VERTICAL: LeftTranslation<Tangent<3>> = LeftTranslation(Tangent([0.0, 0.0, 1.0]));
 
 fn quaternion() -> State<UnitQuaternion> {
-    QuaternionTop.state(0.0, UnitQuaternion::exp(&TURN), &OMEGA)
+    QuaternionTop
+        .state(0.0, UnitQuaternion::exp(&TURN), &OMEGA)
+        .expect("a state")
 }
 
 fn matrix() -> State<SO3> {
-    MatrixTop.state(0.0, SO3::exp(&TURN), &OMEGA)
+    MatrixTop
+        .state(0.0, SO3::exp(&TURN), &OMEGA)
+        .expect("a state")
 }
 
 /// The distance of the attitudes, as matrices, and of the momenta.

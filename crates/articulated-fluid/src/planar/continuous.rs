@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use dvi::{ContinuousSystem, Lagrangian};
+use dvi::{ContinuousSystem, Lagrangian, ShapeError};
 use lie::{AlgebraOver, Cotangent, DualOver, LieGroup, Scalar};
 use smallvec::SmallVec;
 
@@ -64,9 +64,11 @@ impl Lagrangian for PlanarBody {
     fn legendre(
         &self,
         _t: f64,
-        (r0, _, r): &PlanarConfiguration,
+        g: &PlanarConfiguration,
         xi: &<PlanarConfiguration as LieGroup>::Algebra,
-    ) -> <PlanarConfiguration as LieGroup>::Dual {
+    ) -> Result<<PlanarConfiguration as LieGroup>::Dual, ShapeError> {
+        self.check_shape(g, xi)?;
+        let (r0, _, r) = g;
         let r = (r0, &r[..]);
         let mut momenta = self.centre_velocities(r, xi);
         for (v, node) in momenta.iter_mut().zip(&self.nodes) {
@@ -83,7 +85,7 @@ impl Lagrangian for PlanarBody {
         }
         let tails = p[1..].iter().map(|p| Cotangent([*p])).collect();
         let linear = momenta[0].rotated(r0);
-        (Cotangent([p[0]]), Cotangent(linear.0), tails)
+        Ok((Cotangent([p[0]]), Cotangent(linear.0), tails))
     }
 
     /// The first body's position, but under a weight: $x$ enters nowhere.

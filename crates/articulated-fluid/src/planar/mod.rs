@@ -23,7 +23,7 @@
 //! let fish = ArticulatedBody::new(&[body; 2], &[Joint { parent: 0, child: 1, at_parent, at_child }])?;
 //! // The tail beats about z.
 //! let beat = Power::new(vec![Tangent([0.0, 0.0, 1.0])]);
-//! let mut state = fish.state(0.0, fish.aligned(), &(Tangent::zero(), Tangent([0.3, 0.0, 0.0]), beat));
+//! let mut state = fish.state(0.0, fish.aligned(), &(Tangent::zero(), Tangent([0.3, 0.0, 0.0]), beat))?;
 //!
 //! let plane = Plane::find(&fish, &state)?;
 //! let mut integrator = Viewed::new(plane.clone(), Variational::with_inertia(plane.model()));

@@ -188,7 +188,8 @@ fn own_inertia(raw: &RawBody, mass: &Spanned<f64>, source: &Source) -> Result<Ma
         true => Ok(inertia),
         false => {
             let message = "a principal moment exceeds the sum of the two others; expected the \
-                           inertia of the body alone, and what the fluid adds as added_inertia";
+                           inertia of the body alone, and what the fluid adds as added_inertia; \
+                           an inertia with the added one in it is total_inertia, with total_mass";
             Err(source.fail(field.span(), message))
         }
     }

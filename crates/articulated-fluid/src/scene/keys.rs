@@ -92,21 +92,21 @@ pub const KEYS: &[Key] = &[
     key(
         "body.inertia",
         "an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
-         (symmetric, positive definite), in kg m^2",
+         (symmetric to 1e-3 of the largest, positive definite), in kg m^2",
         "another form: semi_axes, or total_mass and total_inertia",
         "inertia of the body alone about the mass centre, in the body's frame, with mass",
     ),
     key(
         "body.added_mass",
         "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers \
-         (symmetric, positive semidefinite), in kg",
+         (symmetric to 1e-3 of the largest, positive semidefinite), in kg",
         "zero",
         "added mass in the body's frame, with inertia",
     ),
     key(
         "body.added_inertia",
         "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers \
-         (symmetric, positive semidefinite), in kg m^2",
+         (symmetric to 1e-3 of the largest, positive semidefinite), in kg m^2",
         "zero",
         "added inertia about the mass centre, in the body's frame, with inertia",
     ),
@@ -119,14 +119,14 @@ pub const KEYS: &[Key] = &[
     key(
         "body.total_mass",
         "an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
-         (symmetric, positive definite), in kg",
+         (symmetric to 1e-3 of the largest, positive definite), in kg",
         "another form: semi_axes, or mass and inertia",
         "mass of the body plus added mass, in the body's frame; not with gravity",
     ),
     key(
         "body.total_inertia",
         "an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
-         (symmetric, positive definite), in kg m^2",
+         (symmetric to 1e-3 of the largest, positive definite), in kg m^2",
         "another form: semi_axes, or mass and inertia",
         "inertia of the body plus added inertia about the mass centre, in the body's frame",
     ),
@@ -139,7 +139,7 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "body.attitude",
-        "an array of 4 numbers w, x, y, z: a quaternion of length 1 (to 1e-6), \
+        "an array of 4 numbers w, x, y, z: a quaternion of length 1 (to 1e-3), \
          a table { axis, angle } or \"aligned\"",
         "\"aligned\" with the reference frame",
         "initial attitude, body to reference frame",

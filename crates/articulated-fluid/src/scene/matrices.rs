@@ -3,15 +3,13 @@
 use toml::Spanned;
 
 use super::error::SceneError;
+use super::note::{Correction, PUBLISHED, ROUNDING};
 use super::raw::Entry;
 use super::source::Source;
 use super::values::{elements, finite};
 
 /// Rows.
 pub(super) type Matrix = [[f64; 3]; 3];
-
-/// How far from symmetric a matrix may be, relative to its largest element.
-const SYMMETRIC: f64 = 1e-12;
 
 /// Below this multiple of the diagonal element a pivot is rounding.
 const DEFINITE: f64 = 8.0 * f64::EPSILON;
@@ -21,10 +19,8 @@ const SEMIDEFINITE: f64 = 1e-12;
 
 /// A symmetric positive definite matrix, given as such or by its diagonal.
 pub(super) fn definite(field: &Spanned<Vec<Entry>>, source: &Source) -> Result<Matrix, SceneError> {
-    matrix(field.get_ref(), |x| x > 0.0)
-        .and_then(symmetric)
-        .and_then(positive_definite)
-        .map_err(|what| source.wrong(field.span(), &what))
+    let matrix = symmetric(field, |x| x > 0.0, source)?;
+    positive_definite(matrix).map_err(|what| source.wrong(field.span(), &what))
 }
 
 /// A symmetric positive semidefinite matrix, given as such or by its diagonal; zero if the key is missing.
@@ -35,9 +31,7 @@ pub(super) fn semidefinite(
     let Some(field) = field else {
         return Ok(diagonal([0.0; 3]));
     };
-    let matrix = matrix(field.get_ref(), |x| x >= 0.0)
-        .and_then(symmetric)
-        .map_err(|what| source.wrong(field.span(), &what))?;
+    let matrix = symmetric(field, |x| x >= 0.0, source)?;
     match is_semidefinite(matrix) {
         true => Ok(matrix),
         false => Err(source.wrong(field.span(), "not positive semidefinite")),
@@ -83,13 +77,29 @@ fn matrix(entries: &[Entry], on_diagonal: fn(f64) -> bool) -> Result<Matrix, Str
     }
 }
 
-/// The symmetric part of a matrix that is symmetric but for rounding.
-fn symmetric(matrix: Matrix) -> Result<Matrix, String> {
+/// A matrix that is symmetric up to the digits of published numbers, made exactly so; the scene notes by how much it was not.
+fn symmetric(
+    field: &Spanned<Vec<Entry>>,
+    on_diagonal: fn(f64) -> bool,
+    source: &Source,
+) -> Result<Matrix, SceneError> {
+    let (matrix, off) = matrix(field.get_ref(), on_diagonal)
+        .and_then(symmetric_part)
+        .map_err(|what| source.wrong(field.span(), &what))?;
+    if off > ROUNDING {
+        source.note(field.span(), Correction::Symmetrised, off);
+    }
+    Ok(matrix)
+}
+
+/// The symmetric part, and how far from it the matrix is relative to its largest element.
+fn symmetric_part(matrix: Matrix) -> Result<(Matrix, f64), String> {
     let largest = largest(&matrix);
-    let mut result = matrix;
+    let (mut result, mut off) = (matrix, 0.0_f64);
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
         let (upper, lower) = (matrix[i][j], matrix[j][i]);
-        if (upper - lower).abs() > SYMMETRIC * largest {
+        let difference = (upper - lower).abs();
+        if difference > PUBLISHED * largest {
             let (i, j) = (i + 1, j + 1);
             return Err(format!(
                 "not symmetric: row {i} has {upper:?} in column {j}, row {j} has {lower:?} in column {i}"
@@ -98,8 +108,12 @@ fn symmetric(matrix: Matrix) -> Result<Matrix, String> {
         // Halved before the sum, which could overflow.
         let mean = 0.5 * upper + 0.5 * lower;
         (result[i][j], result[j][i]) = (mean, mean);
+        // Two equal entries may both be zero, and the largest one too.
+        if difference > 0.0 {
+            off = off.max(difference / largest);
+        }
     }
-    Ok(result)
+    Ok((result, off))
 }
 
 /// Checks that the pivots of the factorisation $L D L^T$ are > 0 beyond rounding.

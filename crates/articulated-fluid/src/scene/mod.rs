@@ -8,6 +8,9 @@
 //! wrong in a file is reported as `FILE:LINE:COLUMN: KEY: what is wrong; expected ...`, where the
 //! line is that of the key. Unknown keys are errors.
 //!
+//! Published numbers have few digits. A matrix that is symmetric to 1e-3 of its largest entry is made symmetric, a quaternion
+//! of length 1 to 1e-3 is normalised, and [`Scene::notes`] says so. Anything further off is refused.
+//!
 //! The bodies form a tree: the first body is its root, the head, and every other one hangs by exactly
 //! one ball joint on a body that is listed before it. Any body may be the first: the tree is stepped
 //! on its heaviest one.
@@ -21,6 +24,7 @@ mod forms;
 mod joints;
 mod keys;
 mod matrices;
+mod note;
 mod overlap;
 mod rates;
 mod raw;
@@ -31,6 +35,7 @@ use std::path::Path;
 
 pub use error::SceneError;
 pub use keys::{KEYS, Key, reference};
+pub use note::{Correction, Note};
 pub use overlap::Overlap;
 
 use forms::Surroundings;
@@ -57,6 +62,8 @@ pub struct Scene {
     pub position: [f64; 3],
     /// Initial velocity of the head's mass centre in the reference frame.
     pub velocity: StartVelocity,
+    /// What was corrected in the file, in the order of its lines.
+    pub notes: Vec<Note>,
 }
 
 /// The initial velocity of the head's mass centre in the reference frame.
@@ -149,6 +156,7 @@ impl Scene {
             joints,
             position,
             velocity,
+            notes: source.into_notes(),
         })
     }
 

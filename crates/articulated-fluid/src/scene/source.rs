@@ -1,5 +1,6 @@
 //! The text of a scene file: from byte offsets to `FILE:LINE:COLUMN: KEY`.
 
+use std::cell::RefCell;
 use std::ops::Range;
 
 use serde::de::DeserializeOwned;
@@ -8,6 +9,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::error::SceneError;
 use super::keys::expected;
+use super::note::{Correction, Note};
 use super::raw::Node;
 
 /// Longest piece of the file's own text in a message, in characters.
@@ -22,6 +24,8 @@ pub(super) struct Source<'a> {
     text: &'a str,
     file: &'a str,
     tree: Spanned<DeTable<'a>>,
+    /// What was corrected so far.
+    notes: RefCell<Vec<Note>>,
 }
 
 /// A key: its dotted path and the byte offset at which it starts.
@@ -34,7 +38,12 @@ impl<'a> Source<'a> {
     /// Parses the TOML syntax.
     pub fn new(text: &'a str, file: &'a str) -> Result<Self, SceneError> {
         match DeTable::parse(text) {
-            Ok(tree) => Ok(Self { text, file, tree }),
+            Ok(tree) => Ok(Self {
+                text,
+                file,
+                tree,
+                notes: RefCell::default(),
+            }),
             Err(error) => Err(syntax_error(text, file, &error)),
         }
     }
@@ -93,6 +102,33 @@ impl<'a> Source<'a> {
         let path = key.to_owned();
         let message = format!("missing; expected {}", expected(key).unwrap_or("a table"));
         self.at(Place { path, offset: 0 }, message)
+    }
+
+    /// Notes that the value at `span`, of a body, was corrected.
+    pub fn note(&self, span: Range<usize>, correction: Correction, off: f64) {
+        let place = self.place(&span);
+        self.notes.borrow_mut().push(Note {
+            body: self.body(span.start).unwrap_or_default(),
+            line: position(self.text, place.offset).0,
+            key: place.path,
+            correction,
+            off,
+        });
+    }
+
+    /// What was noted, in the order of the lines.
+    pub fn into_notes(self) -> Vec<Note> {
+        let mut notes = self.notes.into_inner();
+        notes.sort_by_key(|note| note.line);
+        notes
+    }
+
+    /// The name of the body whose table has `offset`.
+    fn body(&self, offset: usize) -> Option<String> {
+        let bodies = self.tree.get_ref().get("body")?.get_ref().as_array()?;
+        let mut tables = bodies.iter().filter_map(|body| body.get_ref().as_table());
+        let table = tables.find(|table| find(table, "", offset).is_some())?;
+        table.get("name")?.get_ref().as_str().map(str::to_owned)
     }
 
     /// The line of `span`, from 1.

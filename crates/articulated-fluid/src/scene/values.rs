@@ -6,11 +6,9 @@ use toml::Spanned;
 
 use super::StartVelocity;
 use super::error::SceneError;
+use super::note::{Correction, PUBLISHED, ROUNDING};
 use super::raw::{Field, RawAxisAngle, RawRotation, WordOr};
 use super::source::Source;
-
-/// How far from 1 the length of a quaternion may be before it is normalised.
-const UNIT: f64 = 1e-6;
 
 /// A number that is finite and > 0.
 pub(super) fn positive(field: &Spanned<f64>, source: &Source) -> Result<f64, SceneError> {
@@ -75,9 +73,7 @@ pub(super) fn attitude(
     match field.get_ref() {
         WordOr::Word(word) if word == "aligned" => Ok(ALIGNED),
         WordOr::Word(word) => Err(unknown_word(word, field.span(), source)),
-        WordOr::Value(RawRotation::Quaternion(values)) => {
-            unit(values).map_err(|what| source.wrong(field.span(), &what))
-        }
+        WordOr::Value(RawRotation::Quaternion(values)) => unit(values, field.span(), source),
         WordOr::Value(RawRotation::AxisAngle(raw)) => axis_angle(raw, field.span(), source),
     }
 }
@@ -86,13 +82,18 @@ fn unknown_word(word: &str, span: Range<usize>, source: &Source) -> SceneError {
     source.wrong(span, &format!("is {:?}", super::source::quote(word)))
 }
 
-fn unit(values: &[f64]) -> Result<[f64; 4], String> {
-    let quaternion: [f64; 4] = finite(values)?;
+/// A quaternion of length 1 up to the digits of published numbers, made exactly so; the scene notes by how much it was not.
+fn unit(values: &[f64], span: Range<usize>, source: &Source) -> Result<[f64; 4], SceneError> {
+    let quaternion: [f64; 4] = finite(values).map_err(|what| source.wrong(span.clone(), &what))?;
     let length = length(&quaternion);
-    match (length - 1.0).abs() <= UNIT {
-        true => Ok(quaternion.map(|x| x / length)),
-        false => Err(format!("has length {length:?}")),
+    let off = (length - 1.0).abs();
+    if off > PUBLISHED {
+        return Err(source.wrong(span, &format!("has length {length:?}")));
     }
+    if off > ROUNDING {
+        source.note(span, Correction::Normalised, off);
+    }
+    Ok(quaternion.map(|x| x / length))
 }
 
 /// The quaternion of the rotation about an axis of any length.

@@ -63,7 +63,8 @@ impl Sample {
 
     /// The momentum of the velocity.
     pub fn mu(&self) -> Momentum {
-        Lagrangian::legendre(&self.model, 0.0, &self.g, &self.xi)
+        let mu = self.model.legendre(0.0, &self.g, &self.xi);
+        mu.expect("a velocity")
     }
 
     pub fn state(&self) -> State<Configuration> {

@@ -95,6 +95,7 @@ impl Flat {
     pub fn state(&self) -> State<Configuration> {
         self.model()
             .state(0.0, self.configuration(), &self.velocity())
+            .expect("a state")
     }
 
     pub fn plane(&self) -> Plane {

@@ -76,7 +76,7 @@ fn on_the_way<L: Lagrangian>(
     let (mut g, mut faster) = (g.clone(), xi.clone());
     let mut states = vec![];
     for _ in 0..STATES {
-        states.push(model.state(0.0, g.clone(), &faster));
+        states.push(model.state(0.0, g.clone(), &faster).expect("a state"));
         g = g.compose(f);
         faster.add_scaled(0.25, xi);
     }

@@ -1,8 +1,8 @@
 //! What is no model is refused, with the place of the fault.
 
 use articulated_fluid::{ArticulatedBody, Body, Joint, ModelError};
-use dvi::State;
-use lie::{Cotangent, Mat3, Power, SO3, Vec3};
+use dvi::{Lagrangian, ShapeError, State};
+use lie::{Cotangent, LieGroup, Mat3, Power, SO3, Vec3};
 use proptest::prelude::*;
 
 use crate::common::*;
@@ -229,6 +229,28 @@ fn a_state_with_another_number_of_bodies_is_refused() {
     }
     assert!(model.conserved(&state(2, 2)).is_ok());
     assert!(model.conserved(&state(2, 1)).is_err());
+}
+
+#[test]
+fn a_velocity_of_another_number_of_bodies_is_refused() {
+    let joints = [joint(0, 1), joint(0, 2)];
+    let model = ArticulatedBody::new(&[sound(); 3], &joints).expect("a model");
+    let configuration = |tails: usize| {
+        let tails = Power::new(vec![SO3::identity(); tails]);
+        (SO3::identity(), lie::R3::identity(), tails)
+    };
+    for (tails, rates) in [(2, 1), (2, 3), (1, 1), (3, 3)] {
+        let refused = match tails {
+            2 => ShapeError::Velocity {
+                expected: 12,
+                found: 6 + 3 * rates,
+            },
+            _ => ShapeError::Configuration,
+        };
+        let xi = configuration(rates).zero_algebra();
+        let state = model.state(0.0, configuration(tails), &xi);
+        assert_eq!(state, Err(refused));
+    }
 }
 
 #[test]

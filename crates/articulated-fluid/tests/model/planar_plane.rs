@@ -41,7 +41,9 @@ fn tilted(elsewhere: bool, tilt: impl Fn(&mut Parts, &Flat)) -> NotPlanar {
     let model = model
         .with_gravity(gravity, &[0.1, 0.3, -0.2])
         .expect("a weight");
-    let state = model.state(0.0, flat.configuration(), &xi);
+    let state = model
+        .state(0.0, flat.configuration(), &xi)
+        .expect("a state");
     Plane::find(&model, &state).expect_err("no plane")
 }
 
@@ -175,7 +177,10 @@ fn attached(size: f64, off: f64, spin: [f64; 3]) -> Result<Plane, NotPlanar> {
         Tangent::zero(),
         core::iter::once(Tangent(spin)).collect(),
     );
-    Plane::find(&model, &model.state(0.0, model.aligned(), &xi))
+    Plane::find(
+        &model,
+        &model.state(0.0, model.aligned(), &xi).expect("a state"),
+    )
 }
 
 #[test]
@@ -199,7 +204,10 @@ fn a_slow_spin_of_a_fast_body_is_judged_as_a_spin() {
         let found = |off: f64| {
             let omega = Tangent([off, 0.0, rate]);
             let xi = (omega, Tangent([speed, 0.0, 0.0]), [].into_iter().collect());
-            Plane::find(&model, &model.state(0.0, model.aligned(), &xi))
+            Plane::find(
+                &model,
+                &model.state(0.0, model.aligned(), &xi).expect("a state"),
+            )
         };
         assert!(found(0.0).is_ok());
         if rate > 0.0 {
@@ -277,7 +285,10 @@ fn weights_that_balance_have_no_part_along_the_normal() {
             Tangent::zero(),
             (0..3).map(|_| spin(2.0)).collect(),
         );
-        Plane::find(&model, &model.state(0.0, model.aligned(), &xi))
+        Plane::find(
+            &model,
+            &model.state(0.0, model.aligned(), &xi).expect("a state"),
+        )
     };
     let plane = pinned([0.3, -0.1, -0.2]).expect("a plane");
     assert_eq!(plane.normal(), Vec3([0.0, 0.0, 1.0]));
@@ -394,7 +405,11 @@ fn what_the_motion_keeps_is_the_same_in_the_plane() {
     let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
     let mut workspace = ContinuousSystem::workspace::<f64>(&model, &g);
     model.velocity_and_force::<f64>(t, &g, &mu, &mut workspace, &mut xi, &mut tau);
-    assert_close(&[model.energy(t, &g, &xi)], &[found.energy], 1e-13);
+    assert_close(
+        &[model.energy(t, &g, &xi).expect("a state")],
+        &[found.energy],
+        1e-13,
+    );
     assert_close(&[found.energy], &[start.energy], 1e-9);
     let spins: f64 = mu.0[0] + mu.2.iter().map(|p| p[0]).sum::<f64>();
     let orbital = g.1[0] * mu.1[1] - g.1[1] * mu.1[0];

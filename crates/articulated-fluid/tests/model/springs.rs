@@ -94,7 +94,7 @@ fn a_small_oscillation_has_the_frequency_worked_out_by_hand() {
         let model = pair(inertias, k);
         let mut rate = model.aligned().zero_algebra();
         rate.2[0][axis] = AMPLITUDE * omega;
-        let mut state = model.state(0.0, model.aligned(), &rate);
+        let mut state = model.state(0.0, model.aligned(), &rate).expect("a state");
         let mut integrator = Gauss::<_, 4>::new(model);
         let (h, mut worst) = (0.1 / omega, 0.0_f64);
         for n in 1..=600 {
@@ -138,7 +138,7 @@ fn chain() -> (ArticulatedBody, State<Configuration>) {
         Tangent([0.3, -0.1, 0.2]),
         rates.into_iter().collect(),
     );
-    let start = model.state(0.0, g, &xi);
+    let start = model.state(0.0, g, &xi).expect("a state");
     (model, start)
 }
 

@@ -217,7 +217,7 @@ fn the_root_matters_to_the_first_order_by_its_error() {
         lie::Tangent([0.1, 0.2, 0.0]),
         core::iter::once(lie::Tangent([-0.4, 0.6, 0.1])).collect(),
     );
-    let start = dvi::Lagrangian::state(&model, 0.0, model.aligned(), &xi);
+    let start = dvi::Lagrangian::state(&model, 0.0, model.aligned(), &xi).expect("a state");
     let view = Rerooted::new(&model).expect("a heavier body");
     let apart = |steps: usize| {
         let steps = (1.0 / steps as f64, steps);
@@ -258,7 +258,7 @@ fn falling() -> (ArticulatedBody, State<Configuration>) {
         lie::Tangent([7600.0, 0.0, 0.0]),
         core::iter::once(lie::Tangent([-0.4, 0.6, 0.1])).collect(),
     );
-    let start = dvi::Lagrangian::state(&model, 0.0, model.aligned(), &xi);
+    let start = dvi::Lagrangian::state(&model, 0.0, model.aligned(), &xi).expect("a state");
     (model, start)
 }
 

@@ -47,6 +47,7 @@ fn scene(sample: &Sample, velocity: StartVelocity) -> Scene {
         joints: joints.collect(),
         position: sample.g.1.0,
         velocity,
+        notes: vec![],
     }
 }
 

@@ -22,14 +22,6 @@ fn the_totals_of_an_ellipsoid_are_its_own_and_the_added_inertia() {
 }
 
 #[test]
-fn a_matrix_symmetric_but_for_rounding_becomes_symmetric() {
-    let text = GOOD.replace("[0.5, 2, 0]", "[0.5000000000000001, 2, 0]");
-    let scene = parse(&text);
-    let inertia = scene.bodies[1].total_inertia;
-    assert_eq!(inertia[0][1], inertia[1][0]);
-}
-
-#[test]
 fn mixed_and_incomplete_forms_are_refused() {
     assert_refused(&[
         (
@@ -140,13 +132,14 @@ fn bodies_that_cannot_be_are_refused() {
     };
     let (none, down) = ("[0, 0, 0]", "[0, 0, -9.8]");
     let triangle = "body.inertia: a principal moment exceeds the sum of the two others; expected \
-                    the inertia of the body alone, and what the fluid adds as added_inertia";
+                    the inertia of the body alone, and what the fluid adds as added_inertia; an \
+                    inertia with the added one in it is total_inertia, with total_mass";
     for inertia in ["[1, 1, 2.1]", "[[2, 1, 0], [1, 2, 0], [0, 0, 4.001]]"] {
         let keys = format!("mass = 1\ninertia = {inertia}");
         refused(none, &keys, &format!("6:1: {triangle}"));
     }
     let semidefinite = "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers \
-                        (symmetric, positive semidefinite), in kg";
+                        (symmetric to 1e-3 of the largest, positive semidefinite), in kg";
     for (added, what) in [
         ("[1, -1, 0]", "element 2 is -1.0"),
         (

@@ -3,6 +3,7 @@
 mod bodies;
 mod joints;
 mod overlaps;
+mod published;
 mod random;
 mod start;
 mod text;

@@ -38,7 +38,7 @@ fn an_attitude_has_three_forms() {
 
 #[test]
 fn attitudes_that_are_none_are_refused() {
-    let expected = "an array of 4 numbers w, x, y, z: a quaternion of length 1 (to 1e-6), \
+    let expected = "an array of 4 numbers w, x, y, z: a quaternion of length 1 (to 1e-3), \
                     a table { axis, angle } or \"aligned\"";
     for (written, at, message) in [
         (

@@ -128,7 +128,7 @@ fn wrong_types_are_refused() {
             "total_mass = [1, 'x', 3]",
             "f.toml:15:1: body.total_mass: wrong type; \
              expected an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers \
-             (symmetric, positive definite), in kg",
+             (symmetric to 1e-3 of the largest, positive definite), in kg",
         ),
     ]);
 }

@@ -21,27 +21,27 @@ fn wrong_numbers_of_elements_are_refused() {
             "attitude = [0, 1, 0, 0]",
             "attitude = [0, 1, 0]",
             "f.toml:11:1: body.attitude: has 3 elements; expected an array of 4 numbers \
-             w, x, y, z: a quaternion of length 1 (to 1e-6), \
+             w, x, y, z: a quaternion of length 1 (to 1e-3), \
              a table { axis, angle } or \"aligned\"",
         ),
         (
             "total_mass = [1, 2, 3]",
             "total_mass = []",
             "f.toml:15:1: body.total_mass: has 0 elements; expected an array of 3 numbers > 0 \
-             (diagonal) or of 3 rows of 3 numbers (symmetric, positive definite), in kg",
+             (diagonal) or of 3 rows of 3 numbers (symmetric to 1e-3 of the largest, positive definite), in kg",
         ),
         (
             "[0.5, 2, 0]",
             "[0.5, 2]",
             "f.toml:16:1: body.total_inertia: row 2 has 2 elements; expected an array of \
-             3 numbers > 0 (diagonal) or of 3 rows of 3 numbers (symmetric, positive definite), \
+             3 numbers > 0 (diagonal) or of 3 rows of 3 numbers (symmetric to 1e-3 of the largest, positive definite), \
              in kg m^2",
         ),
         (
             "[0.5, 2, 0]",
             "2",
             "f.toml:16:1: body.total_inertia: mixes numbers and rows; expected an array of \
-             3 numbers > 0 (diagonal) or of 3 rows of 3 numbers (symmetric, positive definite), \
+             3 numbers > 0 (diagonal) or of 3 rows of 3 numbers (symmetric to 1e-3 of the largest, positive definite), \
              in kg m^2",
         ),
     ]);
@@ -98,14 +98,14 @@ fn what_is_not_finite_is_refused() {
             "attitude = [0, 1, 0, 0]",
             "attitude = [0, nan, 0, 0]",
             "f.toml:11:1: body.attitude: element 2 is NaN; expected an array of 4 numbers \
-             w, x, y, z: a quaternion of length 1 (to 1e-6), \
+             w, x, y, z: a quaternion of length 1 (to 1e-3), \
              a table { axis, angle } or \"aligned\"",
         ),
         (
             "total_mass = [1, 2, 3]",
             "total_mass = [1, 2, inf]",
             "f.toml:15:1: body.total_mass: element 3 is inf; expected an array of 3 numbers > 0 \
-             (diagonal) or of 3 rows of 3 numbers (symmetric, positive definite), in kg",
+             (diagonal) or of 3 rows of 3 numbers (symmetric to 1e-3 of the largest, positive definite), in kg",
         ),
     ]);
 }
@@ -150,28 +150,28 @@ fn values_out_of_range_are_refused() {
             "attitude = [0, 1, 0, 0]",
             "attitude = [0, 1.5, 0, 0]",
             "f.toml:11:1: body.attitude: has length 1.5; expected an array of 4 numbers \
-             w, x, y, z: a quaternion of length 1 (to 1e-6), \
+             w, x, y, z: a quaternion of length 1 (to 1e-3), \
              a table { axis, angle } or \"aligned\"",
         ),
         (
             "total_mass = [1, 2, 3]",
             "total_mass = [1, -2, 3]",
             "f.toml:15:1: body.total_mass: element 2 is -2.0; expected an array of 3 numbers > 0 \
-             (diagonal) or of 3 rows of 3 numbers (symmetric, positive definite), in kg",
+             (diagonal) or of 3 rows of 3 numbers (symmetric to 1e-3 of the largest, positive definite), in kg",
         ),
         (
             "[0.5, 2, 0]",
             "[0.6, 2, 0]",
             "f.toml:16:1: body.total_inertia: not symmetric: row 1 has 0.5 in column 2, row 2 has \
              0.6 in column 1; expected an array of 3 numbers > 0 (diagonal) or of 3 rows of \
-             3 numbers (symmetric, positive definite), in kg m^2",
+             3 numbers (symmetric to 1e-3 of the largest, positive definite), in kg m^2",
         ),
         (
             "[0.5, 2, 0]",
             "[0.5, 0.125, 0]",
             "f.toml:16:1: body.total_inertia: not positive definite: pivot 2 is 0.0; expected \
-             an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers (symmetric, positive \
-             definite), in kg m^2",
+             an array of 3 numbers > 0 (diagonal) or of 3 rows of 3 numbers (symmetric to 1e-3 of the largest, \
+             positive definite), in kg m^2",
         ),
     ]);
 }
@@ -223,7 +223,7 @@ fn missing_keys_are_reported_at_their_table() {
             "total_mass = [1, 2, 3]\n",
             "",
             "f.toml:13:1: body.total_mass: missing; expected an array of 3 numbers > 0 \
-             (diagonal) or of 3 rows of 3 numbers (symmetric, positive definite), in kg",
+             (diagonal) or of 3 rows of 3 numbers (symmetric to 1e-3 of the largest, positive definite), in kg",
         ),
         (
             "semi_axes = [1, 2, 3]\n",

@@ -58,14 +58,14 @@ use work::{Stepper, stepper};
 ///     }
 /// }
 ///
-/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]));
+/// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
 /// let mut integrator = Gauss::<_, 4>::new(Spring.hamiltonian());
 /// assert_eq!(integrator.order(), 8);
 /// for _ in 0..10 {
 ///     integrator.step(&mut state, 0.5)?;
 /// }
 /// assert!((state.g.0[0] - 5.0_f64.cos()).abs() < 1e-8);
-/// # Ok::<(), dvi::StepError>(())
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 pub struct Gauss<C: ContinuousSystem, const S: usize, R = Cayley> {
     system: C,

@@ -6,6 +6,7 @@ use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
+use crate::sizes::Weights;
 use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
 
@@ -22,6 +23,7 @@ pub(super) struct SweepNewton<C: ContinuousSystem> {
     /// $X - \Phi(X)$, then the correction.
     correction: Vec<f64>,
     sweep: Sweep<C, J>,
+    weights: Option<Weights>,
     unknowns: Vec<J>,
     varied: Varied<C::Group>,
 }
@@ -41,8 +43,16 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             x: vec![0.0; dim],
             correction: vec![0.0; dim],
             sweep: Sweep::new(system, tableau, &varied.g),
+            weights: None,
             unknowns: vec![J::constant(0.0); dim],
             varied,
+        }
+    }
+
+    /// Takes over what brings the kinds of coordinates to one unit.
+    pub(super) fn weigh(&mut self, weights: Option<&Weights>) {
+        if self.weights.is_none() {
+            self.weights = weights.cloned();
         }
     }
 
@@ -105,6 +115,14 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         let which = |part: usize| if part == last { 2 } else { part % 2 };
         for (part, numbers) in self.x.chunks_exact(dim).enumerate() {
             kinds.raise(&mut sizes[which(part)], numbers);
+        }
+        // A kind that does not move has no size but beside the others.
+        let [velocities, momenta @ ..] = &mut sizes;
+        if let Some(weights) = &self.weights {
+            weights.fill_velocities(velocities);
+            momenta
+                .iter_mut()
+                .for_each(|sizes| weights.fill_momenta(sizes));
         }
         let mut of_coordinate = vec![0; dim];
         for (run, kind) in &kinds.runs {

@@ -33,7 +33,9 @@ const SHORTEST_CORRECTION: f64 = 1e-2;
 /// Steps solved by Newton's method before the plain iteration is tried again.
 const LONG_STEPS: u32 = 16;
 /// Unknowns beyond which Newton's method, whose matrix is dense, costs more than shorter steps.
-const NEWTON_LIMIT: usize = 2000;
+const NEWTON_LIMIT: usize = 1000;
+/// Unknowns beyond which one step by Newton's method costs more than trying the plain iteration again.
+const FEW: usize = 300;
 /// The part of a difference at the step's end that one more look leaves of it, at least, where it is rounding.
 const ECHO: f64 = 0.5;
 /// Steps for which rounding stays as it was found.
@@ -145,7 +147,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             if unknowns > NEWTON_LIMIT {
                 return Ok(Ended::Slow(report));
             }
-            self.long_steps = LONG_STEPS;
+            self.long_steps = if unknowns > FEW { 1 } else { LONG_STEPS };
         }
         self.long_steps -= 1;
         let ended = self.newton::<R>(method, start, tolerance)?;
@@ -279,6 +281,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         self.guess::<R>(method, (state, h))?;
         let newton = self.newton.take();
         let mut newton = newton.unwrap_or_else(|| SweepNewton::new(method.0, method.1, &state.g));
+        newton.weigh(self.sweep.weights());
         let ended = self.newton_with::<R>(&mut newton, method.0, (state, h), tolerance);
         self.newton = Some(newton);
         Ok(ended)
@@ -391,6 +394,6 @@ impl Changes {
     }
 
     fn diverge(&self) -> bool {
-        !self.now.is_finite() || (self.count > 6 && self.now > 10.0 * self.best)
+        !self.now.is_finite() || (self.count > 6 && self.now > 10.0 * self.best.max(ROUNDING))
     }
 }

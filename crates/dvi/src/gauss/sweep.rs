@@ -609,6 +609,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         found + S::items(poison).iter().sum::<f64>()
     }
 
+    pub(super) fn weights(&self) -> Option<&Weights> {
+        self.weights.as_ref()
+    }
+
     /// What is rounding beside the other kinds, of the rates $\dot c$ and of the momenta.
     fn beside(&self, kind: usize) -> [f64; 2] {
         let Some(weights) = &self.weights else {

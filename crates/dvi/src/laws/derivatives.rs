@@ -2,28 +2,17 @@
 
 use lie::{LieGroup, VectorSpace};
 
-use super::compare::{Checker, ROUNDING, on_each};
-use super::{LawError, Outcome, Report};
+use super::compare::{Checker, ROUNDING, extent, on_each};
+use super::displacements::{Displacements, displacements};
+use super::{LawError, Outcome, Report, cyclic};
 use crate::{Derivatives, DiscreteLagrangian, HamiltonianSystem, Lagrangian, State};
 
-/// Half-width of the central difference of order 4: $\varepsilon^{1/5}$ balances rounding against truncation.
+/// Half-width of a central difference of order 4, relative to the displacement: $\varepsilon^{1/5}$ balances rounding against truncation.
 const WIDTH: f64 = 7e-4;
-/// Roundings and truncations that a central difference may gather.
+/// Roundings that a central difference may gather.
 const DIFFERENCES: f64 = 30.0;
 /// Step sizes at which the value is compared with the continuous one, s.
 const SHRINKING: [f64; 2] = [1e-3, 1e-4];
-
-/// The displacements that formulas are tried on: no coordinate zero, no two alike, of both signs.
-pub(super) fn displacements<G: lie::RealGroup>(g: &G) -> [G; 2] {
-    [0.11, -0.07].map(|size| {
-        let mut c = g.zero_algebra();
-        for i in 0..c.dim() {
-            let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
-            c.set(i, sign * size * (1.0 + 0.2 * i as f64));
-        }
-        G::exp(&c)
-    })
-}
 
 pub(super) fn check<L: DiscreteLagrangian>(
     c: &mut Checker,
@@ -31,8 +20,10 @@ pub(super) fn check<L: DiscreteLagrangian>(
     state: &State<L::Group>,
     h: f64,
 ) -> Outcome {
-    for f in displacements(&state.g) {
-        against_the_value(c, lagrangian, state, &f, h)?;
+    let Displacements { each, size } = displacements(lagrangian, state, h);
+    let width = WIDTH * size.min(1.0);
+    for f in each {
+        against_the_value(c, lagrangian, (state, &f, h), width)?;
         if lagrangian.is_symmetric() {
             symmetric(c, lagrangian, state, &f, h)?;
         }
@@ -43,9 +34,8 @@ pub(super) fn check<L: DiscreteLagrangian>(
 fn against_the_value<L: DiscreteLagrangian>(
     c: &mut Checker,
     lagrangian: &L,
-    state: &State<L::Group>,
-    f: &L::Group,
-    h: f64,
+    (state, f, h): (&State<L::Group>, &L::Group, f64),
+    width: f64,
 ) -> Outcome {
     let State { t, g, .. } = state;
     let case = || format!("t = {t:?}, g = {g:?}, f = {f:?}, h = {h:?}");
@@ -54,7 +44,9 @@ fn against_the_value<L: DiscreteLagrangian>(
     duals.by_jets(lagrangian, *t, g, f, h);
     let value = lagrangian.value_at(*t, g, f, h).abs();
     let sizes = [value, duals.d_f.max_magnitude(), duals.d_g.max_magnitude()];
-    let tolerance = ROUNDING * sizes.iter().fold(0.0, |a: f64, b| a.max(*b));
+    let size = sizes.iter().fold(0.0, |a: f64, b| a.max(*b));
+    cyclic::check(c, lagrangian, (state, f, h), &given, size)?;
+    let tolerance = ROUNDING * size;
     let formula = "d_f = T*L_f D_f L_d, by duals";
     c.vectors(formula, case, (&given.d_f, &duals.d_f), tolerance)?;
     let formula = "d_g = T*L_g D_g L_d, by duals";
@@ -65,31 +57,31 @@ fn against_the_value<L: DiscreteLagrangian>(
         eta.set(i, s);
         g.compose(&L::Group::exp(&eta))
     };
+    // Rounding of the value, and of what is moved.
+    let rounding = |x: &L::Group| DIFFERENCES * f64::EPSILON / width * size * extent(x);
     for i in 0..given.d_f.dim() {
         let along_f = |s| lagrangian.value_at(*t, g, &moved(f, i, s), h);
+        let (slope, truncation) = difference(width, &along_f);
         let formula = "d_f = T*L_f D_f L_d, by central differences";
-        difference(c, formula, case, i, (given.d_f.get(i), &along_f))?;
+        let sides = (given.d_f.get(i), slope);
+        c.number(formula, case, i, sides, rounding(f) + truncation)?;
         let along_g = |s| lagrangian.value_at(*t, &moved(g, i, s), f, h);
+        let (slope, truncation) = difference(width, &along_g);
         let formula = "d_g = T*L_g D_g L_d, by central differences";
-        difference(c, formula, case, i, (given.d_g.get(i), &along_g))?;
+        let sides = (given.d_g.get(i), slope);
+        c.number(formula, case, i, sides, rounding(g) + truncation)?;
     }
     Ok(())
 }
 
-/// Compares a derivative with $\left(8 (v_1 - v_{-1}) - (v_2 - v_{-2})\right) / 12 w$.
-fn difference(
-    c: &mut Checker,
-    formula: &'static str,
-    case: impl Fn() -> String,
-    component: usize,
-    (derivative, value): (f64, &dyn Fn(f64) -> f64),
-) -> Outcome {
-    let [a, b, o, p, q] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| value(k * WIDTH));
-    let slope = (8.0 * (p - b) - (q - a)) / (12.0 * WIDTH);
-    let curvature = ((p - o) - (o - b)).abs() / WIDTH.powi(2);
-    let size = o.abs() + slope.abs() + curvature;
-    let tolerance = DIFFERENCES * (f64::EPSILON / WIDTH + WIDTH.powi(4)) * size;
-    c.number(formula, case, component, (derivative, slope), tolerance)
+/// The central difference of order 4 at half the width, and a bound on its truncation: its change from that at the whole.
+fn difference(width: f64, value: &dyn Fn(f64) -> f64) -> (f64, f64) {
+    let slope = |w: f64| {
+        let [a, b, p, q] = [-2.0, -1.0, 1.0, 2.0].map(|k| value(k * w));
+        (8.0 * (p - b) - (q - a)) / (12.0 * w)
+    };
+    let fine = slope(0.5 * width);
+    (fine, (slope(width) - fine).abs())
 }
 
 fn symmetric<L: DiscreteLagrangian>(

@@ -25,7 +25,7 @@
 //!     }
 //! }
 //!
-//! let start = Body.state(0.0, SO3::exp(&Tangent([0.3, -0.5, 1.0])), &Tangent([0.2, 1.0, 0.1]));
+//! let start = Body.state(0.0, SO3::exp(&Tangent([0.3, -0.5, 1.0])), &Tangent([0.2, 1.0, 0.1]))?;
 //! let (states, discrete) = ([start.clone()], Body.discretise::<Midpoint>());
 //! laws::check(&discrete, &states, 0.1)?;
 //! laws::check_consistency(&discrete, &Body, &states)?;
@@ -37,14 +37,18 @@
 //! let axis = dvi::RightTranslation(Tangent([0.0, 0.0, 1.0]));
 //! let error = laws::check_symmetry(&discrete, &axis, &states, 0.1).unwrap_err();
 //! assert!(error.to_string().contains("L_d(a g, (a g)^-1 a (g f)) = L_d(g, f)"));
-//! # Ok::<(), laws::LawError>(())
+//! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
 mod compare;
+mod cyclic;
 mod derivatives;
+mod displacements;
 mod order;
 mod steps;
 mod symmetry;
+
+use core::ops::Range;
 
 use thiserror::Error;
 
@@ -108,6 +112,16 @@ pub enum LawError {
         /// The state it was tried at.
         case: String,
     },
+    /// The coordinates that are declared cyclic are not all there.
+    #[error(
+        "cyclic() names the coordinates {} to {}, but the group has {dimension}, counted from 0; name those of a factor R^m that g does not enter by", cyclic.start, cyclic.end - 1
+    )]
+    Cyclic {
+        /// What [`cyclic`](DiscreteLagrangian::cyclic) returns.
+        cyclic: Range<usize>,
+        /// The dimension of the group.
+        dimension: usize,
+    },
     /// The observed order is not the declared one.
     #[error(
         "the observed order is {observed:.3}, the declared one {declared}; step sizes and errors: {errors:?}; a higher one is that of steps too long for the motion"
@@ -131,10 +145,13 @@ type Outcome = Result<(), LawError>;
 ///
 /// - the derivatives $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$ and $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$
 ///   against dual numbers and central differences of the value;
+/// - where coordinates are declared [cyclic](DiscreteLagrangian::cyclic), that $L_d$ does not depend on them;
 /// - an inertia in every direction of the velocity;
 /// - where declared symmetric, $L_d(t, g, f, h) = -L_d(t + h, g f, f^{-1}, -h)$;
 /// - of the step: both discrete Legendre transforms against the momenta ([`check_step`]), symplecticity
 ///   ([`check_symplecticity`]) and, where declared symmetric, reversibility ([`check_reversibility`]).
+///
+/// Formulas are tried on parts of the displacement by which the state moves in the step, so $L_d$ need be defined there only.
 ///
 /// With a [force](crate::Forced), check the Lagrangian without it here, and the whole by [`check_step`] and [`check_order`].
 ///
@@ -148,6 +165,7 @@ pub fn check<L: DiscreteLagrangian>(
     examples(states)?;
     let mut checker = Checker::default();
     for state in states {
+        cyclic::exist(lagrangian, &state.g)?;
         derivatives::check(&mut checker, lagrangian, state, h)?;
         if degenerate(lagrangian, state, h).is_some() {
             let case = format!("{state:?}");

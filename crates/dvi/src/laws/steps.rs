@@ -3,6 +3,7 @@
 use lie::{LieGroup, RealGroup, VectorSpace};
 
 use super::compare::{Checker, ROUNDING, extent, on_each};
+use super::displacements::size;
 use super::{LawError, Outcome, Report};
 use crate::numbers::larger;
 use crate::{
@@ -66,16 +67,17 @@ fn stiffness<L: DiscreteLagrangian>(
     f: &L::Group,
     h: f64,
 ) -> f64 {
-    /// A displacement of this size is far from rounding, and small.
+    /// This part of the displacement is far from rounding, and small.
     const SMALL: f64 = 1e-6;
     let base = legendre_plus(lagrangian, state.t, &state.g, f, h);
+    let small = SMALL * size(f, h);
     let slope = |i: usize| {
         let mut zeta = state.g.zero_algebra();
-        zeta.set(i, SMALL);
+        zeta.set(i, small);
         let f = f.compose(&L::Group::exp(&zeta));
         let mut mu = legendre_plus(lagrangian, state.t, &state.g, &f, h);
         mu.add_scaled(-1.0, &base);
-        mu.max_magnitude() / SMALL
+        mu.max_magnitude() / small
     };
     let steepest = (0..base.dim()).map(slope).fold(0.0, f64::max);
     10.0 * steepest * extent(&state.g)

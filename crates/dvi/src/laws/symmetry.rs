@@ -3,8 +3,8 @@
 use lie::{LieGroup, VectorSpace};
 
 use super::compare::{Checker, ROUNDING, extent, on_each};
-use super::derivatives::displacements;
-use super::{LawError, Outcome, Report};
+use super::displacements::displacements;
+use super::{LawError, Outcome, Report, cyclic};
 use crate::symmetry::generator;
 use crate::{
     Derivatives, DiscreteLagrangian, Integrator, State, Symmetry, Variational, momentum_map,
@@ -26,6 +26,7 @@ pub fn check_symmetry<L: DiscreteLagrangian>(
     h: f64,
 ) -> Result<Report, LawError> {
     on_each(states, |c, state| {
+        cyclic::exist(lagrangian, &state.g)?;
         invariance(c, lagrangian, symmetry, state, h)?;
         momentum(c, lagrangian, symmetry, state, h)
     })
@@ -39,7 +40,7 @@ fn invariance<L: DiscreteLagrangian>(
     h: f64,
 ) -> Outcome {
     let State { t, g, .. } = state;
-    for f in displacements(g) {
+    for f in displacements(lagrangian, state, h).each {
         let here = lagrangian.value_at(*t, g, &f, h);
         let mut derivatives = Derivatives::new(g);
         derivatives.by_jets(lagrangian, *t, g, &f, h);

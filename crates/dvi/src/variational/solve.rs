@@ -5,7 +5,7 @@ use lie::{LieGroup, RealGroup, Retraction, VectorSpace};
 use crate::balance::Balance;
 use crate::numbers::larger;
 use crate::sizes::{Kinds, Relative, Sizes, Weights, shake, shaken};
-use crate::solver::{Algebra, Dual, StepSolver};
+use crate::solver::{Algebra, Dual, StepSolver, cyclic};
 use crate::warm_start::WarmStart;
 use crate::{Derivatives, DiscreteLagrangian, State, StepReport};
 
@@ -322,7 +322,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         if self.solver.is_stale() {
             self.solver.renew::<R>(lagrangian, state, h, &self.c);
         }
-        let iterations = self.finish_cyclic::<R>(lagrangian, state, h);
+        let iterations = self.finish_cyclic::<R>(lagrangian, state, h)?;
         if self.sizes.have_no_scale() {
             // Only the cyclic coordinates have moved, and the others follow.
             self.set_scales(state);
@@ -406,25 +406,26 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         self.balance.transport(&state.mu);
     }
 
-    /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance.
+    /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance; the iterations, or none where they
+    /// are not solved.
     fn finish_cyclic<R: Retraction>(
         &mut self,
         lagrangian: &L,
         state: &State<L::Group>,
         h: f64,
-    ) -> u32 {
-        let cyclic = lagrangian.cyclic();
-        for more in 0..=CYCLIC_ITERATIONS {
-            if more == CYCLIC_ITERATIONS {
+    ) -> Option<u32> {
+        let cyclic = cyclic(lagrangian, self.coordinates.len());
+        for iterations in 0..=MAX_ITERATIONS {
+            if iterations >= CYCLIC_ITERATIONS {
                 let largest = |x: &Algebra<L>| {
                     cyclic
                         .clone()
                         .fold(0.0, |max, i| larger(max, x.get(i).abs()))
                 };
                 if largest(&self.delta) <= CYCLIC_NOISE * largest(&self.c) {
-                    return more;
+                    return Some(iterations);
                 }
-                // The matrix is of an attitude too far from this one.
+                // The matrix is of a place too far from this one.
                 self.solver.renew::<R>(lagrangian, state, h, &self.c);
             }
             let left: &Dual<L> = &self.balance.residual;
@@ -434,12 +435,12 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                     .solver
                     .solve_cyclic(left, cyclic.clone(), &mut self.delta)
             {
-                return more;
+                return Some(iterations);
             }
             self.c.add_scaled(-1.0, &self.delta);
             self.evaluate::<R>(lagrangian, state, h);
         }
-        CYCLIC_ITERATIONS + 1
+        None
     }
 }
 

@@ -26,7 +26,7 @@ impl Lagrangian for Top {
 
 pub fn top() -> State<SO3> {
     let turn = SO3::exp(&Tangent([0.4, -0.8, 0.3]));
-    Top.state(0.0, turn, &Tangent([0.3, -0.5, 1.0]))
+    Top.state(0.0, turn, &Tangent([0.3, -0.5, 1.0])).unwrap()
 }
 
 /// A rigid body in a fluid under its own weight, on SE(3): inertia that couples, and a potential.
@@ -51,7 +51,9 @@ impl Lagrangian for Sinking {
 
 pub fn sinking() -> State<SE3> {
     let g = SE3::exp(&Tangent([0.4, -0.8, 0.3, 1.0, 0.5, -0.2]));
-    Sinking.state(0.0, g, &Tangent([0.3, -0.5, 1.0, 0.2, -0.3, 0.1]))
+    Sinking
+        .state(0.0, g, &Tangent([0.3, -0.5, 1.0, 0.2, -0.3, 0.1]))
+        .unwrap()
 }
 
 /// A particle of 1 kg, whose energy is no quadratic in its velocity, with a magnetic term and a force that depends on time.
@@ -75,7 +77,9 @@ impl Lagrangian for Driven {
 }
 
 pub fn driven() -> State<Rn<2>> {
-    Driven.state(0.2, Rn([1.0, -0.5]), &Tangent([0.4, 0.7]))
+    Driven
+        .state(0.2, Rn([1.0, -0.5]), &Tangent([0.4, 0.7]))
+        .unwrap()
 }
 
 /// A torque that brakes the rotation, linear in it.

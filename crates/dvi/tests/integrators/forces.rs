@@ -163,11 +163,13 @@ fn keeps_the_total<Q: Quadrature>() {
         SO3::exp(&Tangent([0.3, 0.2, 0.1])),
         SO3::exp(&Tangent([-1.0, 0.5, 0.0])),
     );
-    let mut state = Pair.state(
-        0.0,
-        g,
-        &(Tangent([1.0, 0.2, -0.5]), Tangent([0.1, -2.0, 0.3])),
-    );
+    let mut state = Pair
+        .state(
+            0.0,
+            g,
+            &(Tangent([1.0, 0.2, -0.5]), Tangent([0.1, -2.0, 0.3])),
+        )
+        .unwrap();
     let system = Forced::new(
         Lagrangian::discretise::<Q>(Pair),
         Discretised::<_, Q>::new(Pair),

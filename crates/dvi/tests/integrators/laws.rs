@@ -75,7 +75,7 @@ fn symmetries_of_a_top() {
 }
 
 #[track_caller]
-fn named<T: std::fmt::Debug>(verdict: Result<T, LawError>, law: &str) {
+pub fn named<T: std::fmt::Debug>(verdict: Result<T, LawError>, law: &str) {
     match verdict {
         Err(LawError::Violated {
             formula,

@@ -2,6 +2,7 @@
 
 mod common;
 mod composition;
+mod domains;
 mod forces;
 mod gauss;
 mod hamiltonian;
@@ -9,5 +10,6 @@ mod lanes;
 mod laws;
 mod naive;
 mod pilot;
+mod shapes;
 mod variational;
 mod variations;

@@ -27,7 +27,9 @@ impl Lagrangian for Spinning {
 
 fn spinning() -> State<SO3> {
     let turn = SO3::exp(&Tangent([0.4, -0.8, 0.3]));
-    Spinning.state(0.0, turn, &Tangent([0.7, -0.4, 1.5]))
+    Spinning
+        .state(0.0, turn, &Tangent([0.7, -0.4, 1.5]))
+        .unwrap()
 }
 
 fn exact(t: f64) -> SO3 {

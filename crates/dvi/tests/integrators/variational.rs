@@ -77,8 +77,7 @@ fn tops(n: usize) -> State<Power<SO3>> {
 fn off_centre() -> State<(SO3, R3)> {
     let g = (SO3::exp(&Tangent([0.4, -1.0, 0.3])), Rn([1.0, 2.0, 3.0]));
     let xi = (Tangent([0.3, -0.5, 1.0]), Tangent([0.2, 0.1, -0.4]));
-    let mu = Lagrangian::legendre(&OffCentre, 0.0, &g, &xi);
-    State { t: 0.0, g, mu }
+    OffCentre.state(0.0, g, &xi).unwrap()
 }
 
 #[test]

@@ -91,7 +91,9 @@ impl Lagrangian for Together {
 
 #[test]
 fn a_direction_between_coordinates_is_found() {
-    let state = Together.state(0.0, Rn([1.0, 0.5]), &Tangent([0.2, 0.1]));
+    let state = Together
+        .state(0.0, Rn([1.0, 0.5]), &Tangent([0.2, 0.1]))
+        .unwrap();
     all_name(Together, &state, 1);
 }
 
@@ -110,7 +112,9 @@ impl Lagrangian for Vortex {
 
 #[test]
 fn a_first_order_lagrangian_is_refused_outright() {
-    let state = Vortex.state(0.0, Rn([1.0, 0.0]), &Tangent([0.0, 0.0]));
+    let state = Vortex
+        .state(0.0, Rn([1.0, 0.0]), &Tangent([0.0, 0.0]))
+        .unwrap();
     let mut integrator = Variational::new(Vortex.discretise::<Midpoint>());
     let error = integrator.step(&mut state.clone(), 0.1).unwrap_err();
     assert!(

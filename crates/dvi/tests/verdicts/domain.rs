@@ -21,7 +21,7 @@ impl Lagrangian for Barrier {
 
 /// Every state that a step calls solved is in the domain, and a step is refused because it would leave.
 fn stays_or_refuses(mut integrator: impl Integrator<Group = Rn<1>>, h: f64) {
-    let mut state = Barrier.state(0.0, Rn([1.0]), &Tangent([0.0]));
+    let mut state = Barrier.state(0.0, Rn([1.0]), &Tangent([0.0])).unwrap();
     for step in 0..200 {
         let before = state.clone();
         match integrator.step(&mut state, h) {
@@ -41,7 +41,7 @@ fn stays_or_refuses(mut integrator: impl Integrator<Group = Rn<1>>, h: f64) {
 #[test]
 fn gauss_names_the_step_that_leaves_the_domain() {
     let mut integrator = Gauss::<_, 3>::new(Barrier.hamiltonian());
-    let mut state = Barrier.state(0.0, Rn([1.0]), &Tangent([0.0]));
+    let mut state = Barrier.state(0.0, Rn([1.0]), &Tangent([0.0])).unwrap();
     let refused = (0..200).find_map(|_| integrator.step(&mut state, 0.01).err());
     assert!(
         matches!(refused, Some(StepError::NotFinite { .. })),

@@ -24,7 +24,7 @@ fn start(speed: f64) -> State<(SO3, R3)> {
         R3::from(lie::Vec3([0.5, 0.1, -0.3])),
     );
     let xi = (Tangent([0.3, -0.5, speed]), Tangent([0.2, speed, 0.1]));
-    Body.state(0.0, g, &xi)
+    Body.state(0.0, g, &xi).unwrap()
 }
 
 /// Steps of several sizes, one that is refused, and looks ahead.

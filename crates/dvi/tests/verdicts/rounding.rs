@@ -24,7 +24,9 @@ impl Lagrangian for Far {
 /// The error of a thousand steps beside the exact motion, in units of the rounding of a place.
 fn error_of_far(mut integrator: impl Integrator<Group = Rn<1>>, place: f64) -> f64 {
     let (h, steps) = (0.01, 1000);
-    let mut state = Far(place).state(0.0, Rn([place + 1.0]), &Tangent([0.0]));
+    let mut state = Far(place)
+        .state(0.0, Rn([place + 1.0]), &Tangent([0.0]))
+        .unwrap();
     for _ in 0..steps {
         integrator
             .step(&mut state, h)
@@ -65,7 +67,9 @@ impl Lagrangian for Penalty {
 
 #[test]
 fn a_stiff_penalty_is_solved_by_default() {
-    let mut state = Penalty.state(0.0, Rn([1.0, 0.0]), &Tangent([0.0, 0.0]));
+    let mut state = Penalty
+        .state(0.0, Rn([1.0, 0.0]), &Tangent([0.0, 0.0]))
+        .unwrap();
     let energy = |state: &State<Rn<2>>| Penalty.hamiltonian().energy(state);
     let start = energy(&state);
     let mut integrator = Variational::new(Penalty.discretise::<Midpoint>());

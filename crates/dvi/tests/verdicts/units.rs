@@ -37,7 +37,7 @@ impl Body {
             Tangent([0.3, -0.5, 1.0].map(|x| x / time)),
             Tangent([0.2, 1.3, 0.1].map(|x| x * length / time)),
         );
-        self.state(0.0, g, &xi)
+        self.state(0.0, g, &xi).unwrap()
     }
 
     fn run(&self, mut integrator: impl Integrator<Group = (SO3, R3)>, h: f64) -> Vec<SO3> {

@@ -47,6 +47,9 @@ pub enum ProblemError {
         /// The mass centre's coordinate along the axis, m.
         offset: f64,
     },
+    /// The start is no state of the Lagrangian.
+    #[error("the start is no state of the Lagrangian")]
+    Shape(#[from] dvi::ShapeError),
     /// The independent integration failed.
     #[error("the reference solution failed")]
     Reference(#[from] ReferenceError),

@@ -44,7 +44,7 @@ impl FreeRigidBody {
         omega: [f64; 3],
     ) -> Result<Problem<Self, FreeRotation>, ProblemError> {
         finite("angular velocity", &omega)?;
-        let start = checked(self.state(0.0, attitude, &Tangent(omega)))?;
+        let start = checked(self.state(0.0, attitude, &Tangent(omega))?)?;
         let exact = FreeRotation::new(self.moments, &start)?;
         let [x, y, z] = [0, 1, 2].map(|i| Tangent(unit(i).0));
         Ok(Problem {

@@ -51,7 +51,7 @@ impl HeavyTop {
         omega: [f64; 3],
     ) -> Result<Problem<Self, Nutation>, ProblemError> {
         finite("angular velocity", &omega)?;
-        let start = checked(self.state(0.0, attitude, &Tangent(omega)))?;
+        let start = checked(self.state(0.0, attitude, &Tangent(omega))?)?;
         let exact = Nutation::new(self, &start, omega)?;
         let axis = Tangent([0.0, 0.0, 1.0]);
         Ok(Problem {

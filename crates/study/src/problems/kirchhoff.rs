@@ -78,7 +78,7 @@ impl Kirchhoff {
         let mut velocity = Tangent::zero();
         velocity[axis] = spin;
         velocity[3 + axis] = speed;
-        let start = checked(self.state(0.0, pose, &velocity))?;
+        let start = checked(self.state(0.0, pose, &velocity)?)?;
         Ok(Problem {
             name: "Kirchhoff's ellipsoid",
             lagrangian: self,

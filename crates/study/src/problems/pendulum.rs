@@ -80,7 +80,7 @@ impl Pendulum {
         omega: [f64; 3],
         tolerance: Tolerance,
     ) -> Result<Problem<Self, Reference<HamiltonianSystem<Self>>>, ProblemError> {
-        let start = checked(self.state(0.0, attitude, &Tangent(omega)))?;
+        let start = checked(self.state(0.0, attitude, &Tangent(omega))?)?;
         let exact = Reference {
             system: self.hamiltonian(),
             start: start.clone(),

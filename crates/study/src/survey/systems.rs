@@ -70,7 +70,7 @@ pub fn flutter() -> Result<Problem<Kirchhoff, Reference<HamiltonianSystem<Kirchh
         0.0,
         SE3::identity(),
         &Tangent([0.4, 0.15, 0.5, 1.0, 0.1, 0.0]),
-    );
+    )?;
     let exact = Reference {
         system: body.hamiltonian(),
         start: start.clone(),

@@ -103,7 +103,9 @@ fn the_chain_of_run_time_size_as_on_raw_entries() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let body = FreeRigidBody::new([1.0, 1.7, 2.6]).expect("a body");
-    let start = body.state(0.0, SO3::identity(), &Tangent([0.4, -0.5, 1.2]));
+    let start = body
+        .state(0.0, SO3::identity(), &Tangent([0.4, -0.5, 1.2]))
+        .expect("a state");
     let refused = on_group::integrate(&body.hamiltonian(), &start, f64::NAN, TIGHT);
     assert!(matches!(refused, Err(ReferenceError::Time { .. })));
     let mut lost = start.clone();

@@ -104,8 +104,8 @@ fn pose() -> SE3 {
 fn halves_that_move_as_one_are_the_whole() {
     let halves = Rigid(parts().to_vec());
     let body = Rigid(vec![whole(parts())]);
-    let mut a = halves.state(0.0, pose(), &VELOCITY);
-    let mut b = body.state(0.0, pose(), &VELOCITY);
+    let mut a = halves.state(0.0, pose(), &VELOCITY).expect("a state");
+    let mut b = body.state(0.0, pose(), &VELOCITY).expect("a state");
     let mut left = Variational::new(halves.discretise::<Midpoint>()).with_tolerance(1e-15);
     let mut right = Variational::new(body.discretise::<Midpoint>()).with_tolerance(1e-15);
     let mut worst = 0.0_f64;
@@ -125,14 +125,16 @@ fn error_of_springs(stiffness: f64) -> f64 {
     let tolerance = Tolerance::uniform(1e-11);
     let times: Vec<f64> = (1..=100).map(|k| 0.02 * f64::from(k)).collect();
     let body = Rigid(vec![whole(parts())]);
-    let start = body.state(0.0, pose(), &VELOCITY);
+    let start = body.state(0.0, pose(), &VELOCITY).expect("a state");
     let exact =
         on_group::sample(&body.hamiltonian(), &start, &times, tolerance).expect("a reference");
     let sprung = Sprung {
         parts: parts(),
         stiffness,
     };
-    let start = sprung.state(0.0, [pose(); 2], &[VELOCITY; 2]);
+    let start = sprung
+        .state(0.0, [pose(); 2], &[VELOCITY; 2])
+        .expect("a state");
     let states =
         on_group::sample(&sprung.hamiltonian(), &start, &times, tolerance).expect("a motion");
     let errors = states.iter().zip(&exact).map(|(a, b)| {
@@ -157,6 +159,7 @@ fn stiff_springs_tend_to_the_weld() {
 fn a_weld_carries_the_momentum_of_both() {
     let body = Rigid(vec![whole(parts())]);
     let halves = Rigid(parts().to_vec());
-    let mu = |rigid: &Rigid| -> State<SE3> { rigid.state(0.0, pose(), &VELOCITY) };
+    let mu =
+        |rigid: &Rigid| -> State<SE3> { rigid.state(0.0, pose(), &VELOCITY).expect("a state") };
     assert!(distance(&mu(&body), &mu(&halves)) < 1e-15);
 }

@@ -1,0 +1,96 @@
+//! The displacements that formulas are tried on: those of the motion, for which alone $L_d$ need be defined.
+
+use lie::{LieGroup, Over, RealGroup, Scalar, VectorSpace};
+
+use crate::{DiscreteLagrangian, State, Variational};
+
+/// A coordinate that hardly moves is moved by this share of the largest, so that none is zero.
+const SHARE: f64 = 1e-2;
+/// What nothing moves is moved at this speed, in the coordinate's own unit per second.
+const SLOW: f64 = 1e-3;
+/// The second displacement, against the motion.
+const BACK: f64 = -0.6;
+
+/// Displacements from a state, and the size of the first.
+pub(super) struct Displacements<G> {
+    /// A generic part of the motion's displacement in a step, and one against it where $L_d$ has a value there.
+    pub(super) each: Vec<G>,
+    /// The largest coordinate.
+    pub(super) size: f64,
+}
+
+pub(super) fn displacements<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    state: &State<L::Group>,
+    h: f64,
+) -> Displacements<L::Group> {
+    let State { t, g, .. } = state;
+    let mut c = part_of_motion(lagrangian, state, h);
+    let (size, forth) = (c.max_magnitude(), L::Group::exp(&c));
+    c.scale(BACK);
+    let back = L::Group::exp(&c);
+    let mut each = vec![forth];
+    if lagrangian.value_at(*t, g, &back, h).is_finite() {
+        each.push(back);
+    }
+    Displacements { each, size }
+}
+
+/// The logarithm of the motion's displacement, each coordinate shortened by a share of its own: a domain that holds the motion holds
+/// what is shorter.
+fn part_of_motion<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    state: &State<L::Group>,
+    h: f64,
+) -> <L::Group as LieGroup>::Algebra {
+    let motion = Variational::new(ByValue(lagrangian)).displacement(state, h);
+    // A step that is refused is reported by the laws of the step.
+    let mut c = motion.map_or_else(|_| state.g.zero_algebra(), |f| logarithm(&f));
+    let least = least(c.max_magnitude(), h);
+    for i in 0..c.dim() {
+        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+        let moved = match c.get(i) {
+            x if x.abs() < least => sign * least,
+            x => x,
+        };
+        c.set(i, share(i) * moved);
+    }
+    c
+}
+
+/// The size of a displacement `f` in a step of size `h`, never zero.
+pub(super) fn size<G: RealGroup>(f: &G, h: f64) -> f64 {
+    let largest = logarithm(f).max_magnitude();
+    largest.max(least(largest, h))
+}
+
+fn least(largest: f64, h: f64) -> f64 {
+    (SHARE * largest).max(SLOW * h.abs())
+}
+
+/// From 0.5 to 0.9, no two alike: multiples of the golden ratio, modulo one.
+fn share(i: usize) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    0.5 + 0.4 * ((i + 1) as f64 * GOLDEN).fract()
+}
+
+fn logarithm<G: RealGroup>(f: &G) -> G::Algebra {
+    f.log().unwrap_or_else(|e| e.representative)
+}
+
+/// A discrete Lagrangian by its value alone: its motion feels no mistake in what else is given.
+struct ByValue<'a, L>(&'a L);
+
+impl<L: DiscreteLagrangian> DiscreteLagrangian for ByValue<'_, L> {
+    type Group = L::Group;
+
+    fn value<S: Scalar>(&self, g: &Over<L::Group, S>, f: &Over<L::Group, S>, h: S) -> S {
+        self.0.value(g, f, h)
+    }
+    fn value_at<S: Scalar>(&self, t: S, g: &Over<L::Group, S>, f: &Over<L::Group, S>, h: S) -> S {
+        self.0.value_at(t, g, f, h)
+    }
+    fn fits(&self, g: &L::Group) -> bool {
+        self.0.fits(g)
+    }
+}
