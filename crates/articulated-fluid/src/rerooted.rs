@@ -49,7 +49,9 @@ impl Rerooted {
     fn on(model: &ArticulatedBody, root: usize) -> Option<Self> {
         let above = |i: &usize| (*i > 0).then(|| model.nodes[*i].parent);
         let path: Vec<usize> = core::iter::successors(Some(root), above).collect();
-        let others = (0..model.nodes.len()).filter(|i| !path.contains(i));
+        let mut on_path = vec![false; model.nodes.len()];
+        path.iter().for_each(|i| on_path[*i] = true);
+        let others = (0..model.nodes.len()).filter(|i| !on_path[*i]);
         let order: Vec<usize> = path.iter().copied().chain(others).collect();
         Some(Self {
             model: reordered(model, &order, path.len())?,

@@ -33,6 +33,10 @@ impl DiscreteLagrangian for OnSe3 {
     fn fits(&self, g: &SemidirectConfiguration) -> bool {
         g.1.len() == self.0.joints().len()
     }
+
+    fn is_defined(&self, _t: f64, _g: &SemidirectConfiguration) -> bool {
+        true
+    }
 }
 
 impl OnSe3 {

@@ -1,7 +1,7 @@
 //! Directions in which a kinetic energy has no inertia.
 
-/// Below this part of the largest entry a pivot is rounding.
-const ROUNDING: f64 = 1e-13;
+/// Roundings that elimination may leave in place of a zero, for each coordinate.
+const ROUNDINGS: f64 = 8.0;
 /// Inertia is what stays as the step vanishes: a pivot that shrinks by more than this is none.
 const STAYS: f64 = 0.1;
 /// Passes that bring the rows of a symmetric matrix to the same size.
@@ -75,6 +75,7 @@ pub(crate) fn without_inertia(short: &Square, long: &Square) -> Option<usize> {
     let scales = long.balance();
     let (mut short, mut long) = (short.scaled(&scales), long.scaled(&scales));
     let n = long.n;
+    let rounding = ROUNDINGS * f64::EPSILON * n as f64;
     let mut coordinates: Vec<usize> = (0..n).collect();
     for k in 0..n {
         let places = (k..n).flat_map(|i| (k..n).map(move |j| (i, j)));
@@ -84,7 +85,7 @@ pub(crate) fn without_inertia(short: &Square, long: &Square) -> Option<usize> {
         short.swap(k, (row, column));
         long.swap(k, (row, column));
         let (pivot, longer) = (short.at(k, k).abs(), long.at(k, k).abs());
-        if !(pivot > ROUNDING && pivot > STAYS * longer) {
+        if !(pivot > rounding && pivot > STAYS * longer) {
             return Some(coordinates[k]);
         }
         short.eliminate(k);

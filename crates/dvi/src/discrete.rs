@@ -88,7 +88,9 @@ pub trait DiscreteLagrangian {
     ///
     /// A step whose end is not is refused. A system that is defined everywhere may say so: it saves an evaluation a step.
     fn is_defined(&self, t: f64, g: &Self::Group) -> bool {
-        self.value_at::<f64>(t, g, &g.identity_like(), 1.0)
+        /// s: so short that it is still the time `t`.
+        const MOMENT: f64 = 1e-100;
+        self.value_at::<f64>(t, g, &g.identity_like(), MOMENT)
             .is_finite()
     }
 

@@ -74,7 +74,7 @@ pub enum StepError {
         step: u64,
         /// Time at the start of the step, in seconds.
         t: f64,
-        /// Index of a coordinate of the algebra along which there is none, whatever the others before it do.
+        /// Index of a coordinate of the algebra along which there is none, with the coordinates eliminated before it held free.
         coordinate: usize,
     },
     /// The state, the model or the state after the step has a number that is not finite.

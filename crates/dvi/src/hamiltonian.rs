@@ -91,8 +91,9 @@ struct RealNewton<L: Lagrangian, S: Scalar> {
     /// The last correction of `xi`.
     delta: Vec<S>,
     kinds: Kinds,
-    /// The largest residuals, momenta, corrections and velocities of each kind.
-    sizes: [Vec<f64>; 4],
+    /// The largest residuals of each kind, and what they are relative to.
+    sizes: Vec<f64>,
+    scales: Vec<f64>,
     numbers: Vec<f64>,
 }
 
@@ -108,7 +109,8 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
         let lifted = L::Group::convert::<S, Twice<S>>(g, twice);
         let (dim, kinds) = (g.zero_dual().dim(), Kinds::of(g));
         Self {
-            sizes: [0; 4].map(|_| vec![0.0; kinds.count]),
+            sizes: vec![0.0; kinds.count],
+            scales: vec![0.0; kinds.count],
             numbers: vec![0.0; dim],
             kinds,
             moved: lifted.zero_algebra(),
@@ -129,16 +131,17 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
         L::Group::convert_into::<S, Twice<S>>(&self.g, twice, &mut self.twice);
         self.xi.set_zero();
         let (mut last, mut part) = (f64::INFINITY, 1.0);
-        for _ in 0..MAX_ITERATIONS {
+        for iteration in 0..MAX_ITERATIONS {
             self.differentiate(lagrangian, t);
-            self.sizes.iter_mut().for_each(|sizes| sizes.fill(0.0));
             for (i, entry) in self.rhs.iter_mut().enumerate() {
                 *entry = mu(i) - self.gradient.get(i);
             }
-            self.raise(0, |newton, i| newton.rhs[i]);
-            self.raise(1, |newton, i| newton.gradient.get(i));
-            self.raise(1, |_, i| mu(i));
-            let residual = self.ratio(0, 1);
+            if iteration == 0 {
+                // Not those at later iterates: where these go astray, any residual is small beside them.
+                self.set_scales(&mu);
+            }
+            let residual = self.relative_residual();
+            let rounded = self.is_rounding(&mu);
             if residual.is_nan() && last.is_infinite() {
                 return false;
             }
@@ -152,30 +155,57 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
             self.delta.copy_from_slice(&self.rhs);
             self.correct(1.0);
             (last, part) = (residual, 1.0);
-            self.raise(2, |newton, i| newton.delta[i]);
-            self.raise(3, |newton, i| newton.xi.get(i));
-            let correction = self.ratio(2, 3);
-            let rounding = residual <= ROUNDING && !correction.is_nan();
-            if rounding || correction <= CONVERGED {
-                return true;
+            if rounded || self.is_converged() {
+                return self.delta.iter().all(|d| !d.magnitude().is_nan());
             }
         }
         false
     }
 
-    /// Takes the largest magnitudes of each kind, where they are larger than those before.
-    fn raise(&mut self, which: usize, number: impl Fn(&Self, usize) -> S) {
-        for i in 0..self.numbers.len() {
-            self.numbers[i] = number(self, i).magnitude();
+    /// Takes the momentum, or the gradient where the iteration starts, for the scale of each kind; of a kind without either, those of all.
+    fn set_scales(&mut self, mu: &impl Fn(usize) -> S) {
+        self.scales.fill(0.0);
+        for (i, number) in self.numbers.iter_mut().enumerate() {
+            *number = larger(mu(i).magnitude(), self.gradient.get(i).magnitude());
         }
-        self.kinds.raise(&mut self.sizes[which], &self.numbers);
+        self.kinds.raise(&mut self.scales, &self.numbers);
+        let largest = self.scales.iter().copied().fold(0.0, larger);
+        for scale in &mut self.scales {
+            *scale = if *scale == 0.0 { largest } else { *scale };
+        }
     }
 
-    /// The largest sizes relative to others, in the kind where that is largest.
-    fn ratio(&self, part: usize, whole: usize) -> f64 {
-        let kinds = self.sizes[part].iter().zip(&self.sizes[whole]);
-        kinds.fold(0.0, |max, (part, whole)| {
-            larger(max, relative(*part, *whole))
+    /// The residual relative to the scales, in the kind where that is largest.
+    fn relative_residual(&mut self) -> f64 {
+        let rhs = self.rhs.iter().map(|x| x.magnitude());
+        self.numbers.iter_mut().zip(rhs).for_each(|(n, x)| *n = x);
+        self.sizes.fill(0.0);
+        self.kinds.raise(&mut self.sizes, &self.numbers);
+        let kinds = self.sizes.iter().zip(&self.scales);
+        kinds.fold(0.0, |max, (size, scale)| {
+            larger(max, relative(*size, *scale))
+        })
+    }
+
+    /// Whether each residual is rounding of the terms that it is the difference of.
+    fn is_rounding(&self, mu: &impl Fn(usize) -> S) -> bool {
+        (0..self.rhs.len()).all(|i| {
+            let terms = self.hessian.row(i).iter().enumerate();
+            let terms = terms.map(|(j, h)| (*h * self.xi.get(j)).magnitude());
+            let size = mu(i).magnitude() + self.gradient.get(i).magnitude() + terms.sum::<f64>();
+            self.rhs[i].magnitude() <= ROUNDING * size
+        })
+    }
+
+    /// Whether the last correction is small beside the velocity, in each kind.
+    fn is_converged(&self) -> bool {
+        self.kinds.runs.iter().all(|(run, _)| {
+            let largest = |x: &dyn Fn(usize) -> S| {
+                run.clone()
+                    .fold(0.0, |max, i| larger(max, x(i).magnitude()))
+            };
+            let correction = largest(&|i| self.delta[i]);
+            correction <= CONVERGED * largest(&|i| self.xi.get(i))
         })
     }
 

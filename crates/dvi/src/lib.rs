@@ -30,9 +30,18 @@
 //! Equation numbers are those of T. Lee, M. Leok, N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect
 //! fluid* (2009). The print of (25) has $\mathrm{Ad}^\ast_{f_{k+1}}$ where $\mathrm{Ad}^\ast_{f_{k+1}^{-1}}$ is meant.
 //!
+//! # When a step is solved
+//! Sizes are compared within one unit only: angles with angles, and the vectors of each factor $\mathbb{R}^n$ among themselves
+//! ([`lie::Units`]). A light body is judged by its own momentum. So a step depends neither on what is called a metre, nor on the ratio of masses.
+//!
+//! Rounding is measured, not guessed: where an iteration no longer gains, the arguments are moved in their last places, and what that
+//! changes is what rounding may leave. The state after a step is in the domain of the Lagrangian, or the step is refused with
+//! [`StepError::NotFinite`]. Where the kinetic energy has no inertia in some direction, every integrator says
+//! [`StepError::Degenerate`] and names it; Lagrangians that are linear in a velocity are not supported.
+//!
 //! # How a step is solved
 //! For [`Gauss`] see there. Of a discrete Lagrangian, the unknown is $c$ with $f_k = \tau(c)$, $\tau$ the Cayley map or the exponential. The balance of momenta is brought below
-//! a tolerance relative to the momentum, starting from an extrapolation of the steps before, by one of two iterations:
+//! a tolerance, starting from an extrapolation of the steps before, by one of two iterations:
 //! [`Variational::new`] takes Newton's matrix from dual numbers and keeps it until convergence slows;
 //! [`Variational::with_inertia`] takes the inertia of a model that solves it fast ([`Inertia`]).
 //!

@@ -65,16 +65,14 @@ impl Factorisation {
     ///
     /// The pivots are chosen among numbers that do not depend on the units, so neither does the solution, by powers of two not even its bits.
     pub(crate) fn factorise(&mut self) {
-        let exponents: Vec<_> = (0..self.rhs.len())
-            .map(|i| exponent(self.matrix[(i, i)]))
-            .collect();
-        // Their differences are twice those of the units: halved exactly.
-        let first = exponents.iter().flatten().next().copied().unwrap_or(0);
-        for (i, exponent) in exponents.into_iter().enumerate() {
-            let half = (exponent.unwrap_or(first) - first).div_euclid(2);
-            self.scales
-                .iter_mut()
-                .for_each(|s| s[i] = power_of_two(-half));
+        let n = self.rhs.len();
+        let first = (0..n).find_map(|i| exponent(self.matrix[(i, i)]));
+        let first = first.unwrap_or(0);
+        for i in 0..n {
+            // The difference is twice that of the units: halved exactly.
+            let of_row = exponent(self.matrix[(i, i)]).unwrap_or(first);
+            let scale = power_of_two(-(of_row - first).div_euclid(2));
+            self.scales.iter_mut().for_each(|s| s[i] = scale);
         }
         self.factorise_scaled();
     }

@@ -183,6 +183,11 @@ impl<L: Lagrangian, Q: Quadrature, R: Retraction> DiscreteLagrangian for Discret
         self.system.fits(g)
     }
 
+    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
+        let still = g.zero_algebra();
+        self.system.value_at::<f64>(t, g, &still).is_finite()
+    }
+
     fn order(&self) -> u32 {
         Q::ORDER
     }

@@ -6,9 +6,9 @@ use lie::{LieGroup, Units, VectorSpace};
 
 use crate::numbers::{larger, relative};
 
-/// Digits of a number that may say which way it is moved.
+/// The last digits of a number choose the direction of its shake.
 const DIGITS: u32 = 8;
-/// The part of the tolerance that a correction may be of the displacement, which is then the solution without it.
+/// A correction of this part of the tolerance, relative to the displacement, is not made.
 const SETTLED: f64 = 0.1;
 /// Roundings of an evaluation may add up to so many times what shaking its arguments makes of it.
 pub(crate) const NOISE: f64 = 16.0;
@@ -39,37 +39,58 @@ impl Kinds {
 }
 
 /// Coordinates of a kind whose inertia is looked at, at most.
-const SAMPLES: usize = 8;
-/// What a kind moves less than this part of what the others do is rounding of theirs.
+const SAMPLES: usize = 64;
+/// A change smaller than this fraction of the other kinds' is their rounding.
 const BESIDE: f64 = 4.0 * f64::EPSILON;
 
-/// What brings the kinds to one unit: the roots of their inertias, so that sizes of two kinds can be compared at all.
+/// Factors that bring the kinds to one unit: the roots of their inertias.
 ///
-/// It is only asked whether one is rounding of another: a body that turns about its mass centre has no momentum to be relative to.
+/// With them it can be said whether one kind's size is rounding beside the others': a body that turns about its mass centre has no
+/// linear momentum to be relative to.
 #[derive(Clone)]
 pub(crate) struct Weights(Vec<f64>);
 
 impl Weights {
-    /// From the inertia along a coordinate; powers of two, which follow the units exactly.
-    pub(crate) fn new(kinds: &Kinds, mut inertia: impl FnMut(usize) -> f64) -> Self {
-        let mut largest = vec![0.0_f64; kinds.count];
-        for (kind, largest) in largest.iter_mut().enumerate() {
+    /// From the inertia of a kind along one of its coordinates; none where a kind has no finite one.
+    ///
+    /// Powers of two, which follow the units exactly.
+    pub(crate) fn new(kinds: &Kinds, mut inertia: impl FnMut(usize, usize) -> f64) -> Option<Self> {
+        /// Inertias that are powers of two are far from where the exponent changes.
+        const BETWEEN: f64 = core::f64::consts::SQRT_2;
+        let mut exponents = Vec::with_capacity(kinds.count);
+        for kind in 0..kinds.count {
             let of_kind = kinds.runs.iter().filter(|(_, of)| *of == kind);
             let coordinates: Vec<usize> = of_kind.flat_map(|(run, _)| run.clone()).collect();
             let every = coordinates.len().div_ceil(SAMPLES).max(1);
-            let sampled = coordinates.into_iter().step_by(every).map(&mut inertia);
-            *largest = sampled.filter(|x| x.is_finite()).fold(0.0, f64::max);
+            let sampled = coordinates.into_iter().step_by(every);
+            let sampled = sampled.map(|i| BETWEEN * inertia(kind, i));
+            exponents.push(exponent(sampled.fold(0.0, larger))?);
         }
-        let first = largest.iter().find_map(|x| exponent(*x)).unwrap_or(0);
-        let weight =
-            |x: &f64| exponent(*x).map_or(1.0, |e| power_of_two((e - first).div_euclid(2)));
-        Self(largest.iter().map(weight).collect())
+        let first = exponents.first().copied().unwrap_or(0);
+        let weight = |e: &i32| power_of_two((e - first).div_euclid(2));
+        Some(Self(exponents.iter().map(weight).collect()))
+    }
+
+    /// What brings velocities of a kind to the unit of the first.
+    pub(crate) fn of(&self, kind: usize) -> f64 {
+        self.0[kind]
+    }
+
+    /// The largest of velocities of each kind, in the unit of the first.
+    fn velocity(&self, sizes: impl Iterator<Item = f64>) -> f64 {
+        let all = sizes.zip(&self.0);
+        all.fold(0.0, |max, (size, weight)| larger(max, size * weight))
+    }
+
+    /// The same of momenta.
+    fn momentum(&self, sizes: impl Iterator<Item = f64>) -> f64 {
+        let all = sizes.zip(&self.0);
+        all.fold(0.0, |max, (size, weight)| larger(max, size / weight))
     }
 
     /// Gives a kind without any velocity the size of the others'.
     pub(crate) fn fill_velocities(&self, sizes: &mut [f64]) {
-        let all = sizes.iter().zip(&self.0);
-        let largest = all.fold(0.0, |max, (size, weight)| larger(max, size * weight));
+        let largest = self.velocity(sizes.iter().copied());
         for (size, weight) in sizes.iter_mut().zip(&self.0) {
             *size = if *size == 0.0 {
                 largest / weight
@@ -81,8 +102,7 @@ impl Weights {
 
     /// The same of momenta.
     pub(crate) fn fill_momenta(&self, sizes: &mut [f64]) {
-        let all = sizes.iter().zip(&self.0);
-        let largest = all.fold(0.0, |max, (size, weight)| larger(max, size / weight));
+        let largest = self.momentum(sizes.iter().copied());
         for (size, weight) in sizes.iter_mut().zip(&self.0) {
             *size = if *size == 0.0 {
                 largest * weight
@@ -92,18 +112,16 @@ impl Weights {
         }
     }
 
-    /// What is rounding, for each kind of velocities beside all.
+    /// What is rounding of the other kinds' velocities, in one kind.
     pub(crate) fn beside_velocities(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
-        let all = self.0.iter().enumerate();
-        let largest = all.fold(0.0, |max, (k, weight)| larger(max, sizes(k) * weight));
-        BESIDE * largest / self.0[kind]
+        let others = (0..self.0.len()).map(|k| if k == kind { 0.0 } else { sizes(k) });
+        BESIDE * self.velocity(others) / self.0[kind]
     }
 
     /// The same of momenta.
     pub(crate) fn beside_momenta(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
-        let all = self.0.iter().enumerate();
-        let largest = all.fold(0.0, |max, (k, weight)| larger(max, sizes(k) / weight));
-        BESIDE * largest * self.0[kind]
+        let others = (0..self.0.len()).map(|k| if k == kind { 0.0 } else { sizes(k) });
+        BESIDE * self.momentum(others) * self.0[kind]
     }
 }
 
@@ -118,26 +136,19 @@ pub(crate) fn relative_beside(size: f64, scale: f64, rounding: f64) -> f64 {
 /// The blocks of a group's coordinates, and how large a vector is in each.
 pub(crate) struct Sizes {
     blocks: Vec<Block>,
-    kinds: Vec<Kind>,
-    weights: Weights,
     numbers: Vec<f64>,
-}
-
-/// The largest of the blocks of a kind.
-#[derive(Clone, Copy, Default)]
-struct Kind {
-    size: f64,
+    /// The largest scale of all, in one unit.
     scale: f64,
-    /// What is rounding of the other kinds' scales.
-    rounding: f64,
 }
 
 /// Coordinates of one unit that belong together.
 struct Block {
     coordinates: Range<usize>,
     kind: usize,
-    /// What is relative to [`scale`](Block::scale).
+    /// What brings its momenta to one unit with the others'.
+    weight: f64,
     size: f64,
+    /// What the size is relative to.
     scale: f64,
     /// What rounding makes of nothing.
     noise: f64,
@@ -145,7 +156,11 @@ struct Block {
 
 impl Sizes {
     /// For vectors of the shape of `g`, without the coordinates in `left_out`.
-    pub(crate) fn new<G: LieGroup>(g: &G, left_out: Range<usize>, weights: Weights) -> Self {
+    pub(crate) fn new<G: LieGroup>(
+        g: &G,
+        left_out: Range<usize>,
+        weights: Option<&Weights>,
+    ) -> Self {
         let units = Units::of(g);
         let (before, after) = (0..left_out.start, left_out.end..usize::MAX);
         let parts = units.blocks().flat_map(|(block, kind)| {
@@ -154,25 +169,23 @@ impl Sizes {
                 (start..block.end.min(kept.end).max(start), kind)
             })
         });
-        let block = |(coordinates, kind)| Block {
+        let block = |(coordinates, kind): (Range<usize>, usize)| Block {
             coordinates,
             kind,
+            weight: weights.map_or(1.0, |weights| weights.0[kind]),
             size: 0.0,
             scale: 0.0,
             noise: 0.0,
         };
+        let parts = parts.filter(|(part, _)| !part.is_empty());
         Self {
-            blocks: parts
-                .filter(|(part, _)| !part.is_empty())
-                .map(block)
-                .collect(),
-            kinds: vec![Kind::default(); units.kinds()],
-            weights,
+            blocks: parts.map(block).collect(),
             numbers: vec![0.0; g.zero_dual().dim()],
+            scale: 0.0,
         }
     }
 
-    /// Takes the largest of these vectors for the scale of each block, and forgets the noise.
+    /// Takes the largest of these momenta for the scale of each block, and forgets the noise.
     pub(crate) fn set_scales<V: VectorSpace<Scalar = f64>>(&mut self, terms: [&V; 3]) {
         for block in &mut self.blocks {
             (block.scale, block.noise) = (0.0, 0.0);
@@ -183,19 +196,13 @@ impl Sizes {
                 block.scale = larger(block.scale, block.size);
             }
         }
-        for (kind, of_kind) in self.kinds.iter_mut().enumerate() {
-            let blocks = self.blocks.iter().filter(|block| block.kind == kind);
-            of_kind.scale = blocks.fold(0.0, |max, block| larger(max, block.scale));
-        }
-        for kind in 0..self.kinds.len() {
-            let scale = |kind: usize| self.kinds[kind].scale;
-            self.kinds[kind].rounding = self.weights.beside_momenta(scale, kind);
-        }
+        let scales = self.blocks.iter().map(|block| block.scale / block.weight);
+        self.scale = scales.fold(0.0, larger);
     }
 
     /// Whether all scales are zero.
     pub(crate) fn have_no_scale(&self) -> bool {
-        self.blocks.iter().all(|block| block.scale == 0.0)
+        self.scale == 0.0
     }
 
     /// Takes the size of a vector in each block.
@@ -207,22 +214,38 @@ impl Sizes {
         }
     }
 
-    /// How large a vector is relative to the scales: in each kind as a whole, and block by block; the largest of either.
+    /// How large momenta are relative to the scales, as a whole and block by block.
     #[inline(always)]
     pub(crate) fn relative<V: VectorSpace<Scalar = f64>>(&mut self, x: &V) -> Relative {
         self.measure(x);
-        self.kinds.iter_mut().for_each(|kind| kind.size = 0.0);
-        let mut found = Relative::default();
+        let (mut size, mut by_block) = (0.0, 0.0);
         for block in &self.blocks {
-            let kind = &mut self.kinds[block.kind];
-            kind.size = larger(kind.size, block.size);
-            found.by_block = larger(found.by_block, relative(block.size, block.scale));
+            size = larger(size, block.size / block.weight);
+            by_block = larger(by_block, relative(block.size, block.scale));
         }
-        for kind in &self.kinds {
-            let by_kind = relative_beside(kind.size, kind.scale, kind.rounding);
-            found.by_kind = larger(found.by_kind, by_kind);
+        Relative {
+            overall: relative(size, self.scale),
+            by_block,
         }
-        found
+    }
+
+    /// The largest size relative to the scale of its block, of sizes above what is rounding in a kind.
+    pub(crate) fn relative_above<V: VectorSpace<Scalar = f64>>(
+        &mut self,
+        x: &V,
+        rounding: impl Fn(usize) -> f64,
+    ) -> f64 {
+        self.measure(x);
+        let blocks = self.blocks.iter();
+        let sizes = blocks.map(|b| relative_beside(b.size, b.scale, rounding(b.kind)));
+        sizes.fold(0.0, larger)
+    }
+
+    /// The largest of displacements, in one unit.
+    pub(crate) fn displacement<V: VectorSpace<Scalar = f64>>(&mut self, x: &V) -> f64 {
+        self.measure(x);
+        let sizes = self.blocks.iter().map(|block| block.size * block.weight);
+        sizes.fold(0.0, larger)
     }
 
     /// Takes the difference of two evaluations that are the same but for rounding for the noise of each block, where it is larger than before.
@@ -253,17 +276,17 @@ impl Sizes {
     }
 }
 
-/// Of a vector.
-#[derive(Clone, Copy, Default)]
+/// Of momenta.
+#[derive(Clone, Copy)]
 pub(crate) struct Relative {
-    pub(crate) by_kind: f64,
+    pub(crate) overall: f64,
     pub(crate) by_block: f64,
 }
 
 impl Relative {
     /// Of nothing known yet.
     pub(crate) const NONE: Self = Self {
-        by_kind: f64::INFINITY,
+        overall: f64::INFINITY,
         by_block: f64::INFINITY,
     };
 }

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use lie::{LieGroup, Units, VectorSpace};
 
-use crate::numbers::relative;
+use crate::sizes::Weights;
 
 /// Highest degree of the extrapolating polynomial.
 const DEGREE: usize = 4;
@@ -23,15 +23,19 @@ pub(crate) struct WarmStart {
     terms: usize,
     recorded: u32,
     h: f64,
-    /// Coordinates of one unit, and which one.
-    runs: Vec<(Range<usize>, usize)>,
+    /// Coordinates of one unit, and what brings it to that of the others.
+    runs: Vec<(Range<usize>, f64)>,
 }
 
 impl WarmStart {
-    pub(crate) fn new<G: LieGroup>(g: &G) -> Self {
+    pub(crate) fn new<G: LieGroup>(g: &G, weights: Option<&Weights>) -> Self {
         let dim = g.zero_dual().dim();
+        let runs = Units::of(g).runs().into_iter().map(|(run, kind)| {
+            let weight = weights.map_or(1.0, |weights| weights.of(kind));
+            (run, weight)
+        });
         Self {
-            runs: Units::of(g).runs(),
+            runs: runs.collect(),
             differences: core::array::from_fn(|_| vec![0.0; dim]),
             known: 0,
             terms: 0,
@@ -68,23 +72,13 @@ impl WarmStart {
         best.unwrap_or(0).min(self.known)
     }
 
-    /// How large a difference is relative to the solution, in the kind of coordinates where it is largest.
+    /// How large a difference is, in one unit for all coordinates.
     fn size(&self, order: usize) -> f64 {
-        let (part, whole) = (&self.differences[order], &self.differences[0]);
-        let kinds = 0..=self.runs.iter().map(|(_, kind)| *kind).max().unwrap_or(0);
-        let of_kind = |kind: usize| {
-            let runs = self.runs.iter().filter(move |(_, of)| *of == kind);
-            runs.fold([0.0_f64; 2], |[x, y], (run, _)| {
-                [
-                    x.max(size(&part[run.clone()])),
-                    y.max(size(&whole[run.clone()])),
-                ]
-            })
-        };
-        kinds.fold(0.0, |max, kind| {
-            let [part, whole] = of_kind(kind);
-            max.max(relative(part, whole))
-        })
+        let runs = self.runs.iter().map(|(run, weight)| {
+            let part = &self.differences[order][run.clone()];
+            weight * size(part)
+        });
+        runs.fold(0.0, f64::max)
     }
 
     pub(crate) fn record(&mut self, h: f64, solution: &[f64]) {
@@ -128,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_polynomial_is_continued_exactly() {
-        let mut warm = WarmStart::new(&Rn([0.0]));
+        let mut warm = WarmStart::new(&Rn([0.0]), None);
         let cubic = |k: i32| f64::from(k * k * k - 2 * k);
         let mut guess = [0.0];
         assert!(!warm.guess(0.1, &mut guess));
@@ -143,7 +137,7 @@ mod tests {
 
     #[test]
     fn noise_is_not_amplified() {
-        let mut warm = WarmStart::new(&Rn([0.0]));
+        let mut warm = WarmStart::new(&Rn([0.0]), None);
         for k in 0..20 {
             warm.record(1.0, &[if k % 2 == 0 { 1.0 } else { -1.0 }]);
         }

@@ -5,6 +5,8 @@ use crate::{Cotangent, LieGroup, NotUnique, Over, Scalar, Tangent, Vec3};
 
 /// A vector of $\mathbb{R}^n$, the group operation being addition.
 ///
+/// Its coordinates share a unit: for a length and an angle, take `(Rn<1>, SO2)` or `(Rn<1>, Rn<1>)`.
+///
 /// The group is abelian: $\mathrm{Ad}$ and $\mathrm{Ad}^\ast$ are the identity, $\mathrm{ad}$ and $\mathrm{ad}^\ast$ are zero.
 ///
 /// ```

@@ -161,12 +161,21 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R
     ) -> Result<(StepReport, &mut dyn Stepper<C>), StepError> {
         self.check(state, h)?;
         let (system, tableau) = (&self.system, self.tableau);
+        let (step, t) = (self.steps, state.t);
         let work = match self.work.take() {
             Some(work) if work.fits(&state.g) => work,
-            _ => stepper::<C, R>(self.instructions, system, tableau, &state.g),
+            _ => match system.without_inertia(t, &state.g) {
+                Some(coordinate) => {
+                    return Err(StepError::Degenerate {
+                        step,
+                        t,
+                        coordinate,
+                    });
+                }
+                None => stepper::<C, R>(self.instructions, system, tableau, &state.g),
+            },
         };
         let work = self.work.insert(work);
-        let (step, t) = (self.steps, state.t);
         if !work.shape().same_shape(&state.mu) {
             let (expected, found) = (work.shape().dim(), state.mu.dim());
             return Err(StepError::Shape {

@@ -6,7 +6,7 @@ use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use crate::jets::{add_constant, for_each_chunk};
 use crate::linear::Factorisation;
-use crate::sizes::Weights;
+use crate::sizes::{Kinds, Weights};
 use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
 
@@ -24,6 +24,10 @@ pub(super) struct SweepNewton<C: ContinuousSystem> {
     correction: Vec<f64>,
     sweep: Sweep<C, J>,
     weights: Option<Weights>,
+    /// The largest velocities, rates of momenta and momenta of each kind.
+    sizes: [Vec<f64>; 3],
+    /// The kind of each coordinate.
+    kind_of: Vec<usize>,
     unknowns: Vec<J>,
     varied: Varied<C::Group>,
 }
@@ -35,7 +39,12 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     }
 
     pub(super) fn new(system: &C, tableau: &Tableau, g: &C::Group) -> Self {
-        let dim = Self::unknowns(tableau, g.zero_dual().dim());
+        let kinds = Kinds::of(g);
+        let mut kind_of = vec![0; g.zero_dual().dim()];
+        for (run, kind) in &kinds.runs {
+            kind_of[run.clone()].fill(*kind);
+        }
+        let dim = Self::unknowns(tableau, kind_of.len());
         let varied = Varied::new(g);
         Self {
             matrix: Factorisation::new(dim),
@@ -44,6 +53,8 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             correction: vec![0.0; dim],
             sweep: Sweep::new(system, tableau, &varied.g),
             weights: None,
+            sizes: [0, 1, 2].map(|_| vec![0.0; kinds.count]),
+            kind_of,
             unknowns: vec![J::constant(0.0); dim],
             varied,
         }
@@ -109,27 +120,32 @@ impl<C: ContinuousSystem> SweepNewton<C> {
 
     /// With what the unknowns are of each kind for their units.
     fn factorise(&mut self) {
-        let (dim, kinds) = (self.sweep.dim(), self.sweep.kinds.clone());
-        let mut sizes = [0, 1, 2].map(|_| vec![0.0; kinds.count]);
-        let last = self.x.len() / dim - 1;
+        let Self {
+            matrix,
+            x,
+            sweep,
+            weights,
+            sizes,
+            kind_of,
+            ..
+        } = self;
+        let dim = kind_of.len();
+        let last = x.len() / dim - 1;
         let which = |part: usize| if part == last { 2 } else { part % 2 };
-        for (part, numbers) in self.x.chunks_exact(dim).enumerate() {
-            kinds.raise(&mut sizes[which(part)], numbers);
+        sizes.iter_mut().for_each(|sizes| sizes.fill(0.0));
+        for (part, numbers) in x.chunks_exact(dim).enumerate() {
+            sweep.kinds.raise(&mut sizes[which(part)], numbers);
         }
         // A kind that does not move has no size but beside the others.
-        let [velocities, momenta @ ..] = &mut sizes;
-        if let Some(weights) = &self.weights {
+        let [velocities, momenta @ ..] = sizes;
+        if let Some(weights) = weights {
             weights.fill_velocities(velocities);
             momenta
                 .iter_mut()
                 .for_each(|sizes| weights.fill_momenta(sizes));
         }
-        let mut of_coordinate = vec![0; dim];
-        for (run, kind) in &kinds.runs {
-            of_coordinate[run.clone()].fill(*kind);
-        }
-        let sizes = (0..self.x.len()).map(|i| sizes[which(i / dim)][of_coordinate[i % dim]]);
-        self.matrix.factorise_map(sizes);
+        let size = |i: usize| sizes[which(i / dim)][kind_of[i % dim]];
+        matrix.factorise_map((0..x.len()).map(size));
     }
 
     /// Whether the branch of solutions from $h = 0$, where the matrix is the identity, has turned before the iterate: its matrix is singular

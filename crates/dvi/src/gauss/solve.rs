@@ -36,10 +36,14 @@ const LONG_STEPS: u32 = 16;
 const NEWTON_LIMIT: usize = 1000;
 /// Unknowns beyond which one step by Newton's method costs more than trying the plain iteration again.
 const FEW: usize = 300;
-/// The part of a difference at the step's end that one more look leaves of it, at least, where it is rounding.
-const ECHO: f64 = 0.5;
-/// Steps for which rounding stays as it was found.
-const LISTENS_EVERY: u32 = 16;
+/// A mismatch or a change of which one more iteration leaves at least this part is rounding, where it is small.
+const STAYS: f64 = 0.5;
+/// Steps for which noise is taken to be as it was measured.
+const NOISE_HOLDS: u32 = 16;
+/// Noise is measured only below this change: above, the iteration diverges.
+const MEASURES_BELOW: f64 = 1e-4;
+/// The weight of a single block's mismatch, relative to its own momentum, beside that of its kind.
+const OF_BLOCK: f64 = 1e-7;
 
 /// Why a step was not solved.
 pub(super) enum Failure {
@@ -104,10 +108,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         limits: Limits,
     ) -> Result<StepReport, Failure> {
         let tolerance = limits.tolerance;
-        if self.heard == 0 {
+        if self.noise_holds == 0 {
             self.sweep.forget_noise();
         }
-        self.heard = self.heard.saturating_sub(1);
+        self.noise_holds = self.noise_holds.saturating_sub(1);
         if limits.sweeps_only {
             let ended = self.iterate::<R>(method, start, tolerance)?;
             return ended.solved().ok_or_else(|| ended.refusal(start.1));
@@ -123,6 +127,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             return Ok(report);
         }
         self.long_steps = 0;
+        self.noise_holds = 0;
         self.predictor.forget();
         self.update.forget();
         self.drift.fill(0.0);
@@ -208,22 +213,22 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             };
             let solved = changes.are_solved(tolerance);
             if solved || iterations % LOOKS_AT_END == 0 {
-                let apart = self.apart::<R>((state, h));
-                report.residual = larger(changes.now, apart);
-                let echoes = apart < ROUNDING && apart > ECHO * before;
-                if solved && (apart <= enough || echoes) {
+                let mismatch = self.mismatch::<R>((state, h), solved);
+                report.residual = larger(changes.now, mismatch);
+                let stays = mismatch < ROUNDING && mismatch > STAYS * before;
+                if solved && (mismatch <= enough || stays) {
                     return Ok(Ended::Solved(report));
                 }
                 if solved {
-                    before = apart;
+                    before = mismatch;
                 }
-                if solved || (apart > enough && apart > KNOWN_BETTER * changes.now) {
+                if solved || (mismatch > enough && mismatch > KNOWN_BETTER * changes.now) {
                     self.start.copy_from_slice(&self.wanted);
                     changes = Changes::default();
                 }
             }
-            if changes.idle == IDLE && changes.now.is_finite() {
-                self.listen::<R>(system, (state, h));
+            if changes.idle == IDLE && changes.now < MEASURES_BELOW {
+                self.measure_noise::<R>(system, (state, h));
                 changes.idle += 1;
                 continue;
             }
@@ -235,39 +240,48 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         Ok(Ended::Slow(report))
     }
 
-    /// Finds what rounding makes of a sweep.
-    fn listen<R: Retraction>(&mut self, system: &C, (state, h): Start<C>) {
-        self.heard = LISTENS_EVERY;
-        self.sweep.listen::<R>(system, (&state.g, state.t, h));
+    /// Measures what rounding makes of a sweep.
+    fn measure_noise<R: Retraction>(&mut self, system: &C, (state, h): Start<C>) {
+        self.noise_holds = NOISE_HOLDS;
+        self.sweep
+            .measure_noise::<R>(system, (&state.g, &mut self.moved), (state.t, h));
     }
 
-    /// How far $\pi_0$ is from what the step's end asks for, relative to the momentum, in the kind of coordinates where that is largest. What noise
-    /// explains is none.
-    fn apart<R: Retraction>(&mut self, (state, h): Start<C>) -> f64 {
+    /// How far $\pi_0$ is from what the step's end asks for, relative to the momentum, in the kind of coordinates where that is largest; at the
+    /// last look, with less weight, in each block too. What noise explains is none.
+    fn mismatch<R: Retraction>(&mut self, (state, h): Start<C>, last: bool) -> f64 {
         let Self {
             sweep,
             start,
             wanted,
-            apart: [numbers, parts, sizes],
+            sizes,
+            mismatch: [numbers, parts, wholes],
+            difference,
             ..
         } = &mut *self;
         sweep.end_to_start::<R>(h, &state.mu, wanted);
         let kinds = &sweep.kinds;
         parts.fill(0.0);
-        sizes.fill(0.0);
+        wholes.fill(0.0);
         // A body at rest has a momentum only in between.
         for momentum in [&state.mu, &sweep.end.momentum] {
             momentum.write(numbers);
-            kinds.raise(sizes, numbers);
+            kinds.raise(wholes, numbers);
         }
         for (number, (a, b)) in numbers.iter_mut().zip(start.iter().zip(&*wanted)) {
             *number = a - b;
         }
         kinds.raise(parts, numbers);
-        let noise = sweep.noise_of_momentum(h);
-        let kinds = parts.iter().zip(sizes).zip(noise);
-        kinds.fold(0.0, |found, ((part, size), noise)| {
-            larger(found, relative_beside(*part, *size, noise))
+        let noise = |kind| sweep.noise_of_momentum(h, kind);
+        let mut in_block = 0.0;
+        if last {
+            difference.read(numbers);
+            sizes.set_scales([&state.mu, &sweep.end.momentum, &sweep.end.momentum]);
+            in_block = sizes.relative_above(difference, noise);
+        }
+        let kinds = parts.iter().zip(wholes).enumerate();
+        kinds.fold(OF_BLOCK * in_block, |found, (kind, (part, size))| {
+            larger(found, relative_beside(*part, *size, noise(kind)))
         })
     }
 
@@ -298,7 +312,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         self.sweep.round(Side::End);
         self.sweep.write(&mut newton.x);
         let (mut last, mut part) = (f64::INFINITY, 1.0);
-        let (mut stale, mut renewed, mut heard) = (!newton.fits(h), false, false);
+        let (mut stale, mut renewed, mut measured) = (!newton.fits(h), false, false);
         let (mut report, mut best) = (StepReport::default(), f64::INFINITY);
         for iterations in 1..=MAX_NEWTON {
             self.sweep.read(&newton.x);
@@ -319,9 +333,9 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
                 self.sweep.end_to_start::<R>(h, &state.mu, &mut self.start);
                 return Ended::Solved(report);
             }
-            if !heard && change < AT_ROOT && change > ECHO * last {
-                heard = true;
-                self.listen::<R>(system, (state, h));
+            if !measured && change < MEASURES_BELOW && change > STAYS * last {
+                measured = true;
+                self.measure_noise::<R>(system, (state, h));
                 continue;
             }
             // Beyond a change that grows lies any root: so it has to fall, by a part of the correction where not by all.

@@ -11,6 +11,8 @@ use crate::ContinuousSystem;
 use crate::numbers::larger;
 use crate::sizes::{Kinds, NOISE, Weights, relative_beside, shaken};
 
+/// Noise above this part of the rates or momenta is none: the motion is lost anyway.
+const LOUDEST: f64 = 1e-4;
 /// Sweeps that bring guessed velocities to the chart: each leaves about a hundredth of the error.
 const CHART_SWEEPS: usize = 3;
 
@@ -137,8 +139,8 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     change: Change<S>,
     /// What rounding makes of no change, in the rates of each kind; zero where that has not been looked at.
     noise: Vec<[f64; 2]>,
-    /// How often it has been looked at.
-    heard: u32,
+    /// How often numbers were moved to measure it.
+    shakes: u32,
     /// New rates of a block.
     rates: Vec<S>,
 }
@@ -244,7 +246,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             g: lifted,
             change: Change::new(kinds.count),
             noise: vec![[0.0; 2]; kinds.count],
-            heard: 0,
+            shakes: 0,
             kinds,
             weights: None,
             rates: vec![S::zero(); dim],
@@ -569,16 +571,13 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
 
     /// Finds what brings the kinds of coordinates to one unit, by what the velocity answers to small momenta.
     pub(super) fn weigh(&mut self, system: &C, (t, mu): (f64, &<C::Group as LieGroup>::Dual)) {
-        /// Of the momentum, or of its unit where there is none.
+        /// Of the momentum of the kind, or of its unit where there is none.
         const SMALL: f64 = 1.0 / 1024.0;
         if self.weights.is_some() {
             return;
         }
-        let size = match mu.max_magnitude() {
-            0.0 => SMALL,
-            size => SMALL * size,
-        };
-        let kinds = self.kinds.clone();
+        let (kinds, mut sizes) = (self.kinds.clone(), vec![0.0; self.kinds.count]);
+        kinds.raise(&mut sizes, &mu.coordinates());
         let mut moved = mu.clone();
         let mut velocity = |add: f64, i: usize| {
             moved.copy_from(mu);
@@ -586,8 +585,15 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
             self.rates_at(system, t, &moved);
             self.xi.get(0, i)
         };
-        let inertia = |i: usize| size / (velocity(size, i) - velocity(0.0, i)).abs();
-        self.weights = Some(Weights::new(&kinds, inertia));
+        let inertia = |kind: usize, i: usize| {
+            let size = if sizes[kind] == 0.0 {
+                SMALL
+            } else {
+                SMALL * sizes[kind]
+            };
+            size / (velocity(size, i) - velocity(0.0, i)).abs()
+        };
+        self.weights = Weights::new(&kinds, inertia);
     }
 
     /// The largest change of the rates in the last sweep, in the kind of coordinates where it is largest: of $\dot c$ relative to it, of
@@ -636,38 +642,49 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         let outside = |k: usize, lane: usize| {
             let item = |x: S| S::items(&[x])[lane];
             let g = C::Group::convert::<S, f64>(&self.blocks[k].g, item);
-            !system.is_defined(t + h * item(self.coefficients.nodes[k]), &g)
+            g.is_finite() && !system.is_defined(t + h * item(self.coefficients.nodes[k]), &g)
         };
         (0..self.blocks.len()).any(|k| (0..S::ITEMS).any(|lane| outside(k, lane)))
     }
 
-    /// How much of a momentum of each kind is rounding in a step, as far as that is known.
-    pub(super) fn noise_of_momentum(&self, h: f64) -> impl Iterator<Item = f64> + '_ {
-        let noises = self.noise.iter().enumerate();
-        noises.map(move |(kind, [_, pi])| larger(NOISE * h.abs() * pi, self.beside(kind)[1]))
+    /// How much of a momentum of a kind is rounding in a step, as far as that is known.
+    pub(super) fn noise_of_momentum(&self, h: f64, kind: usize) -> f64 {
+        let [_, pi] = self.noise[kind];
+        larger(NOISE * h.abs() * pi, self.beside(kind)[1])
     }
 
-    /// Finds what rounding makes of the rates at the stages' places: how much these change where every number that they follow from moves in
-    /// its last place. They stay as they are then.
+    /// Measures what rounding makes of the rates at the stages' places: how much they change where every number that they follow from moves in
+    /// its last place. The rates keep the moved values.
     #[cold]
-    pub(super) fn listen<R: Retraction>(&mut self, system: &C, (g, t, h): (&C::Group, f64, f64)) {
-        self.heard += 1;
-        let time = self.heard;
+    pub(super) fn measure_noise<R: Retraction>(
+        &mut self,
+        system: &C,
+        (g, moved): (&C::Group, &mut C::Group),
+        (t, h): (f64, f64),
+    ) {
+        self.shakes += 1;
+        let time = self.shakes;
         for places in [&mut self.c, &mut self.pi] {
             places.items_mut().for_each(|x| *x = shaken(*x, time));
         }
-        self.start_at(&C::Group::convert::<f64, f64>(g, |x| shaken(x, time)));
+        C::Group::convert_into::<f64, f64>(g, |x| shaken(x, time), moved);
+        self.start_at(moved);
         self.evaluate::<R>(system, (t, h));
         self.start_at(g);
         for (kind, noise) in self.noise.iter_mut().enumerate() {
             let [c, pi] = self.change.of(kind);
-            *noise = [larger(noise[0], c.change), larger(noise[1], pi.change)];
+            // What is not small beside the rates is no rounding.
+            for (noise, of) in noise.iter_mut().zip([c, pi]) {
+                if of.change <= LOUDEST * of.size {
+                    *noise = larger(*noise, of.change);
+                }
+            }
         }
     }
 
     /// Forgets what rounding makes.
     pub(super) fn forget_noise(&mut self) {
-        self.heard = 0;
+        self.shakes = 0;
         self.noise.fill([0.0; 2]);
     }
 }

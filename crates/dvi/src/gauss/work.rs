@@ -11,7 +11,7 @@ use super::solve::{Failure, Limits, Method, Start};
 use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use super::update::Update;
-use crate::sizes::Kinds;
+use crate::sizes::{Kinds, Sizes};
 use crate::{ContinuousSystem, State, StepReport, Variation};
 
 type Dual<C> = <<C as ContinuousSystem>::Group as LieGroup>::Dual;
@@ -25,10 +25,14 @@ pub(super) struct Work<C: ContinuousSystem, S: Batch<Item = f64>> {
     pub(super) start: Vec<f64>,
     pub(super) wanted: Vec<f64>,
     pub(super) drift: Vec<f64>,
-    /// Storage to compare the first two: their difference, and the largest numbers of each kind.
-    pub(super) apart: [Vec<f64>; 3],
-    /// Steps for which the noise stays as it was found.
-    pub(super) heard: u32,
+    /// Storage to compare the first two: their difference, and the largest numbers of each kind and block.
+    pub(super) mismatch: [Vec<f64>; 3],
+    pub(super) difference: <C::Group as LieGroup>::Dual,
+    pub(super) sizes: Sizes,
+    /// Storage for a configuration whose numbers are moved to measure noise.
+    pub(super) moved: C::Group,
+    /// Steps for which the noise is taken to be as it was measured.
+    pub(super) noise_holds: u32,
     /// Made when first needed.
     pub(super) newton: Option<SweepNewton<C>>,
     linearised: Option<SweepNewton<C>>,
@@ -46,8 +50,11 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             start: vec![0.0; dim],
             wanted: vec![0.0; dim],
             drift: vec![0.0; dim],
-            apart: [dim, kinds, kinds].map(|n| vec![0.0; n]),
-            heard: 0,
+            mismatch: [dim, kinds, kinds].map(|n| vec![0.0; n]),
+            difference: g.zero_dual(),
+            sizes: Sizes::new(g, 0..0, None),
+            moved: g.clone(),
+            noise_holds: 0,
             newton: None,
             linearised: None,
             long_steps: 0,
@@ -125,6 +132,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
         } = &mut self.work;
         let g = &start.0.g;
         let linearised = linearised.get_or_insert_with(|| SweepNewton::new(system, tableau, g));
+        linearised.weigh(sweep.weights());
         linearised.carry::<R, S>(system, start, sweep, variations);
     }
 
@@ -138,14 +146,14 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
             ..
         } = &mut self.work;
         let End { f, impulse, mu, .. } = &sweep.end;
-        state.mu.write(drift);
-        for (drift, start) in drift.iter_mut().zip(start) {
-            *drift = *start - *drift;
-        }
         let after = update.advance(state, h, (f, impulse, mu))?;
         if !system.is_defined(after.t, &after.g) {
             update.forget();
             return None;
+        }
+        state.mu.write(drift);
+        for (drift, start) in drift.iter_mut().zip(start) {
+            *drift = *start - *drift;
         }
         state.copy_from(after);
         predictor.record(h, sweep);

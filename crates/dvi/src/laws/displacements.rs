@@ -1,10 +1,10 @@
 //! The displacements that formulas are tried on: those of the motion, for which alone $L_d$ need be defined.
 
-use lie::{LieGroup, Over, RealGroup, Scalar, VectorSpace};
+use lie::{LieGroup, Over, RealGroup, Scalar, Units, VectorSpace};
 
 use crate::{DiscreteLagrangian, State, Variational};
 
-/// A coordinate that hardly moves is moved by this share of the largest, so that none is zero.
+/// A coordinate that hardly moves is moved by this share of the largest of its kind, so that none is zero.
 const SHARE: f64 = 1e-2;
 /// What nothing moves is moved at this speed, in the coordinate's own unit per second.
 const SLOW: f64 = 1e-3;
@@ -46,14 +46,21 @@ fn part_of_motion<L: DiscreteLagrangian>(
     let motion = Variational::new(ByValue(lagrangian)).displacement(state, h);
     // A step that is refused is reported by the laws of the step.
     let mut c = motion.map_or_else(|_| state.g.zero_algebra(), |f| logarithm(&f));
-    let least = least(c.max_magnitude(), h);
-    for i in 0..c.dim() {
-        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
-        let moved = match c.get(i) {
-            x if x.abs() < least => sign * least,
-            x => x,
-        };
-        c.set(i, share(i) * moved);
+    let units = Units::of(&state.g);
+    let mut largest = vec![0.0_f64; units.kinds()];
+    for (block, kind) in units.blocks() {
+        largest[kind] = block.fold(largest[kind], |max, i| max.max(c.get(i).abs()));
+    }
+    for (block, kind) in units.blocks() {
+        let least = least(largest[kind], h);
+        for i in block {
+            let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+            let moved = match c.get(i) {
+                x if x.abs() < least => sign * least,
+                x => x,
+            };
+            c.set(i, share(i) * moved);
+        }
     }
     c
 }

@@ -105,7 +105,15 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     /// As [`step`](Integrator::step).
     pub fn displacement(&mut self, state: &State<L::Group>, h: f64) -> Result<L::Group, StepError> {
         self.solve(state, h)?;
-        Ok(self.work(state.t, &state.g).balance.f.clone())
+        let f = self.work((state.t, h), &state.g).balance.f.clone();
+        if !self
+            .lagrangian
+            .is_defined(state.t + h, &state.g.compose(&f))
+        {
+            let (step, t) = (self.steps, state.t);
+            return Err(StepError::NotFinite { step, t, h });
+        }
+        Ok(f)
     }
 
     /// The pair $(g_k, f_k)$ of a state and a step size, where the Lagrangian form starts.
@@ -149,10 +157,14 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
                 .ok_or(StepError::NotFinite { step, t, h })
         };
         finite(&next.g)?;
+        if !self.lagrangian.is_defined(next.t, &next.g) {
+            let (t, h) = (*t, *h);
+            return Err(StepError::NotFinite { step, t, h });
+        }
         let report = self.solve(&next, *h)?;
-        finite(&self.work(next.t, &next.g).balance.f)?;
+        finite(&self.work((next.t, *h), &next.g).balance.f)?;
         self.accept(*h);
-        f.clone_from(&self.work(next.t, &next.g).balance.f);
+        f.clone_from(&self.work((next.t, *h), &next.g).balance.f);
         (*t, *g) = (next.t, next.g);
         Ok(report)
     }
@@ -161,7 +173,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     fn advance(&mut self, state: &mut State<L::Group>, h: f64) -> Result<(), StepError> {
         let (normalizes, step, t) = (self.normalizes(), self.steps, state.t);
         let (lagrangian, work) = (&self.lagrangian, &mut self.work);
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, state.t, &state.g));
+        let work = work.get_or_insert_with(|| Work::new(lagrangian, (state.t, h), &state.g));
         state.g.compose_into(&work.balance.f, &mut work.next);
         if normalizes {
             work.next.normalize();
@@ -196,9 +208,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         }
     }
 
-    fn work(&mut self, t: f64, g: &L::Group) -> &mut Work<L, M> {
+    /// The storage of a step that was solved.
+    fn work(&mut self, time: (f64, f64), g: &L::Group) -> &mut Work<L, M> {
         self.work
-            .get_or_insert_with(|| Work::new(&self.lagrangian, t, g))
+            .get_or_insert_with(|| Work::new(&self.lagrangian, time, g))
     }
 
     /// Whether a step of size `h` from `g` at time `t` makes sense at all.
@@ -222,10 +235,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         self.check(t, h, &state.g)?;
         let fits = |work: &Work<L, M>| work.next.same_shape(&state.g);
         if !self.work.as_ref().is_some_and(fits) {
-            self.work = Some(Work::new(&self.lagrangian, t, &state.g));
+            self.work = Some(Work::new(&self.lagrangian, (t, h), &state.g));
         }
         let (lagrangian, work) = (&self.lagrangian, &mut self.work);
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, state.t, &state.g));
+        let work = work.get_or_insert_with(|| Work::new(lagrangian, (state.t, h), &state.g));
         let shape = &work.balance.residual;
         if !shape.same_shape(&state.mu) {
             let (expected, found) = (shape.dim(), state.mu.dim());
@@ -242,7 +255,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         let few = (shape.dim() as f64 / FEW).sqrt().max(1.0);
         let goal = Goal {
             tolerance: self.tolerance.unwrap_or(TOLERANCE * few),
-            or_rounding: self.tolerance.is_none(),
+            accepts_rounding: self.tolerance.is_none(),
         };
         let mut before = 0;
         if work.warm.guess(h, &mut work.coordinates) {
@@ -258,13 +271,18 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         }
         let mut ended = work.follow::<R>(lagrangian, (state, h), goal);
         ended.report.iterations += before;
-        if ended.at == End::Solved && work.solver.degenerate().is_none() {
-            return Ok(ended.report);
-        }
+        let coordinate = match ended.at {
+            End::Solved => match work.solver.degenerate() {
+                None => return Ok(ended.report),
+                coordinate => coordinate,
+            },
+            End::NotFinite => None,
+            _ => degenerate(lagrangian, state, h),
+        };
         work.forget();
-        let looked_at = ended.at != End::NotFinite;
-        let degenerate = looked_at.then(|| degenerate(lagrangian, state, h));
-        if let Some(coordinate) = degenerate.flatten() {
+        if let Some(coordinate) = coordinate {
+            // What was seen of this state is not so of others.
+            self.work = None;
             return Err(StepError::Degenerate {
                 step,
                 t,
@@ -323,7 +341,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
     fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
         self.solve(state, h)?;
         let (step, t) = (self.steps, state.t);
-        let balance = &self.work(state.t, &state.g).balance;
+        let balance = &self.work((state.t, h), &state.g).balance;
         let ahead = State {
             t: state.t + h,
             g: state.g.compose(&balance.f),
@@ -358,7 +376,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> FirstVariation
             linearised,
             ..
         } = self;
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, state.t, &state.g));
+        let work = work.get_or_insert_with(|| Work::new(lagrangian, (state.t, h), &state.g));
         let fits = |known: &Linearised<L::Group>| known.fits(&state.g);
         let mut linearised = linearised
             .take()

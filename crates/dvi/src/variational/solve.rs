@@ -1,5 +1,7 @@
 //! How the momentum balance of a step is solved, and which of its roots is taken.
 
+use core::ops::Range;
+
 use lie::{LieGroup, RealGroup, Retraction, VectorSpace};
 
 use crate::balance::Balance;
@@ -23,8 +25,8 @@ const MEASUREMENTS: u32 = 4;
 const CYCLIC_ITERATIONS: u32 = 3;
 /// A correction of the cyclic coordinates below this share of the displacement is rounding.
 const CYCLIC_NOISE: f64 = 1e3 * f64::EPSILON;
-/// A residual below this may ask for no correction.
-const NEARLY: f64 = 1e-10;
+/// Only a residual below this may ask for no correction.
+const SETTLES_BELOW: f64 = 1e-10;
 /// A residual below this is at a root; it may rise by rounding.
 const AT_ROOT: f64 = 1e-6;
 /// The shortest part of a correction that is tried where the whole makes the residual grow.
@@ -43,6 +45,8 @@ pub(super) struct Work<L: DiscreteLagrangian, M> {
     pub(super) warm: WarmStart,
     pub(super) c: Algebra<L>,
     delta: Algebra<L>,
+    /// Of the cyclic coordinates alone.
+    cyclic_delta: Algebra<L>,
     /// Those of a guess or of a solution.
     pub(super) coordinates: Vec<f64>,
     /// The solution of a part of the step.
@@ -62,16 +66,16 @@ struct Shaken<G: RealGroup> {
 /// When a step is solved.
 #[derive(Clone, Copy)]
 pub(super) struct Goal {
-    /// The largest residual, relative to the momenta of its kind.
+    /// The largest residual, relative to the momenta.
     pub(super) tolerance: f64,
     /// Whether a residual that rounding explains is enough.
-    pub(super) or_rounding: bool,
+    pub(super) accepts_rounding: bool,
 }
 
 impl Goal {
     fn is_reached(&self, residual: Relative) -> bool {
         let Self { tolerance, .. } = *self;
-        residual.by_kind <= tolerance && residual.by_block <= BLOCKS * tolerance
+        residual.overall <= tolerance && residual.by_block <= BLOCKS * tolerance
     }
 }
 
@@ -109,18 +113,18 @@ impl Progress {
 
     /// Over two iterations: the contraction's eigenvalues are complex, and single ones jump.
     fn is_slow(&self, now: Relative, slow: f64) -> bool {
-        let (last, before) = (self.last.by_kind, self.before.by_kind);
+        let (last, before) = (self.last.overall, self.before.overall);
         match before.is_finite() {
-            true => now.by_kind > slow * last && now.by_kind > slow * slow * before,
-            false => now.by_kind > last,
+            true => now.overall > slow * last && now.overall > slow * slow * before,
+            false => now.overall > last,
         }
     }
 
     /// Whether no block's residual shrinks any more.
     fn stands(&self, now: Relative) -> bool {
         let falls =
-            |of: fn(&Relative) -> f64| of(&now) <= STANDS * of(&self.last).min(of(&self.before));
-        now.by_kind < AT_ROOT && !falls(|r| r.by_kind) && !falls(|r| r.by_block)
+            |of: fn(&Relative) -> f64| of(&now) < STANDS * of(&self.last).min(of(&self.before));
+        now.overall < AT_ROOT && !falls(|r| r.overall) && !falls(|r| r.by_block)
     }
 
     fn push(&mut self, now: Relative) {
@@ -134,15 +138,16 @@ pub(super) fn is_rounding(residual: f64, tolerance: f64) -> bool {
 }
 
 impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
-    pub(super) fn new(lagrangian: &L, t: f64, g: &L::Group) -> Self {
+    pub(super) fn new(lagrangian: &L, (t, h): (f64, f64), g: &L::Group) -> Self {
         let (c, solver) = (g.zero_algebra(), M::allocate(lagrangian, g));
-        let weights = weights(lagrangian, t, g);
+        let weights = weights(lagrangian, (t, h), g);
         Self {
             balance: Balance::new(g),
-            sizes: Sizes::new(g, solver.exact(lagrangian), weights),
-            warm: WarmStart::new(g),
+            sizes: Sizes::new(g, solver.exact(lagrangian), weights.as_ref()),
+            warm: WarmStart::new(g, weights.as_ref()),
             coordinates: vec![0.0; c.dim()],
             delta: c.clone(),
+            cyclic_delta: c.clone(),
             reached: c.clone(),
             c,
             next: g.clone(),
@@ -222,9 +227,9 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     /// Whether the root is near where the iteration has started.
     fn is_near(&mut self) -> bool {
         self.delta.read(&self.coordinates);
-        self.sizes.set_scales([&self.delta; 3]);
+        let size = self.sizes.displacement(&self.delta);
         self.delta.add_scaled(-1.0, &self.c);
-        self.sizes.relative(&self.delta).by_kind <= NEAR
+        self.sizes.displacement(&self.delta) <= NEAR * size
     }
 
     /// Iterates from the coordinates in `c`, which `coordinates` are too, until the goal is reached. With the exact matrix the residual has to
@@ -243,7 +248,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             at,
             turns: 0,
         };
-        let [mut first, mut best] = [f64::INFINITY; 2];
+        let (mut first, mut best) = (None, f64::INFINITY);
         let mut progress = Progress::NONE;
         let (mut exact, mut part, mut measured) = (false, 1.0, 0);
         for iterations in 1..=MAX_ITERATIONS {
@@ -252,24 +257,26 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 self.set_scales(state);
             }
             let now = self.residual();
-            let residual = now.by_kind;
+            let residual = now.overall;
             let slow = progress.is_slow(now, M::SLOW);
             let mut solved = goal.is_reached(now);
-            if !solved && goal.or_rounding && measured < MEASUREMENTS && progress.stands(now) {
+            if !solved && goal.accepts_rounding && measured < MEASUREMENTS && progress.stands(now) {
                 measured += 1;
                 solved = self.is_noise::<R>(lagrangian, (state, h), (goal.tolerance, measured));
             }
-            if solved && let Some(ended) = self.finish::<R>(lagrangian, (state, h), goal, now) {
-                return ended.after(iterations);
+            if solved {
+                match self.finish::<R>(lagrangian, (state, h), goal, now) {
+                    Some(ended) => return ended.after(iterations),
+                    // Solving the cyclic equations has moved the rest.
+                    None => continue,
+                }
             }
-            if iterations == 1 {
-                first = residual;
-            }
+            let first = *first.get_or_insert(residual);
             if !first.is_finite() {
                 return ended(End::NotFinite, iterations, best);
             }
             best = best.min(residual);
-            let falls = residual <= progress.last.by_kind.max(AT_ROOT);
+            let falls = residual <= progress.last.overall.max(AT_ROOT);
             if exact && !falls && part > SHORTEST_CORRECTION {
                 part *= 0.5;
                 self.c.add_scaled(part, &self.delta);
@@ -300,11 +307,11 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             progress.push(now);
             self.solver
                 .solve(lagrangian, &self.balance.residual, &mut self.delta);
-            if residual < NEARLY
-                && self.is_settled(goal.tolerance)
-                && let Some(ended) = self.finish::<R>(lagrangian, (state, h), goal, now)
-            {
-                return ended.after(iterations);
+            if residual < SETTLES_BELOW && self.is_settled(goal.tolerance) {
+                match self.finish::<R>(lagrangian, (state, h), goal, now) {
+                    Some(ended) => return ended.after(iterations),
+                    None => continue,
+                }
             }
             self.c.add_scaled(-1.0, &self.delta);
         }
@@ -328,12 +335,12 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             self.set_scales(state);
         }
         let now = self.residual();
-        let holds = goal.is_reached(now) || now.by_kind <= 2.0 * found.by_kind;
+        let holds = goal.is_reached(now) || now.overall <= 2.0 * found.overall;
         // The iteration contracts: the solution's matrix has the signs of the one that it is found by.
         (iterations == 0 || holds).then(|| Ended {
             report: StepReport {
                 iterations,
-                residual: now.by_kind,
+                residual: now.overall,
             },
             at: End::Solved,
             turns: self.solver.turns(),
@@ -415,38 +422,58 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         h: f64,
     ) -> Option<u32> {
         let cyclic = cyclic(lagrangian, self.coordinates.len());
+        let mut last = f64::INFINITY;
         for iterations in 0..=MAX_ITERATIONS {
+            let largest = |x: &Algebra<L>| {
+                cyclic
+                    .clone()
+                    .fold(0.0, |max, i| larger(max, x.get(i).abs()))
+            };
             if iterations >= CYCLIC_ITERATIONS {
-                let largest = |x: &Algebra<L>| {
-                    cyclic
-                        .clone()
-                        .fold(0.0, |max, i| larger(max, x.get(i).abs()))
-                };
-                if largest(&self.delta) <= CYCLIC_NOISE * largest(&self.c) {
+                let correction = largest(&self.cyclic_delta);
+                if correction <= CYCLIC_NOISE * largest(&self.c)
+                    || (correction > 0.5 * last && self.is_cyclic_rounding(cyclic.clone()))
+                {
                     return Some(iterations);
                 }
+                last = correction;
                 // The matrix is of a place too far from this one.
                 self.solver.renew::<R>(lagrangian, state, h, &self.c);
             }
             let left: &Dual<L> = &self.balance.residual;
             let solved = cyclic.clone().all(|i| left.get(i) == 0.0);
-            if solved
-                || !self
+            let corrects = !solved
+                && self
                     .solver
-                    .solve_cyclic(left, cyclic.clone(), &mut self.delta)
-            {
+                    .solve_cyclic(left, cyclic.clone(), &mut self.cyclic_delta);
+            if !corrects {
                 return Some(iterations);
             }
-            self.c.add_scaled(-1.0, &self.delta);
+            self.c.add_scaled(-1.0, &self.cyclic_delta);
             self.evaluate::<R>(lagrangian, state, h);
         }
         None
     }
+
+    /// Whether what is left of the cyclic equations is small beside the momenta that they are made of, whatever the kind: the mass centre of a body that
+    /// turns about it stays, but for rounding.
+    fn is_cyclic_rounding(&self, cyclic: Range<usize>) -> bool {
+        let Balance {
+            residual,
+            derivatives,
+            ..
+        } = &self.balance;
+        let left = cyclic.fold(0.0, |max, i| larger(max, residual.get(i).abs()));
+        left <= ROUNDING * derivatives.d_f.max_magnitude()
+    }
 }
 
-/// By what the momentum answers to small displacements in a short step.
-fn weights<L: DiscreteLagrangian>(lagrangian: &L, t: f64, g: &L::Group) -> Weights {
-    /// s.
+/// By what the momentum answers to small displacements in a short part of a step.
+fn weights<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    (t, h): (f64, f64),
+    g: &L::Group,
+) -> Option<Weights> {
     const SHORT: f64 = 1e-6;
     const SMALL: f64 = 1e-9;
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
@@ -455,12 +482,11 @@ fn weights<L: DiscreteLagrangian>(lagrangian: &L, t: f64, g: &L::Group) -> Weigh
         c.set_zero();
         c.set(i, displacement);
         L::Group::cayley_into(&c, &mut f);
-        lagrangian.derivatives(t, g, &f, SHORT, &mut derivatives);
+        lagrangian.derivatives(t, g, &f, SHORT * h, &mut derivatives);
         derivatives.d_f.get(i)
     };
-    Weights::new(&Kinds::of(g), |i| {
-        (momentum(SMALL, i) - momentum(0.0, i)).abs()
-    })
+    let inertia = |_, i| (momentum(SMALL, i) - momentum(0.0, i)).abs();
+    Weights::new(&Kinds::of(g), inertia)
 }
 
 impl Ended {

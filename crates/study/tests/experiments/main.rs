@@ -6,6 +6,7 @@ mod common;
 mod contenders;
 mod figure;
 mod hard;
+mod laws;
 mod methods;
 mod problems;
 mod stability;
