@@ -88,15 +88,14 @@ impl Factorisation {
     }
 
     fn factorise_scaled(&mut self) {
-        let n = self.rhs.len();
         let [rows, columns] = &self.scales;
-        for j in 0..n {
+        for (j, column) in columns.iter().enumerate() {
             let (to, from) = (
                 self.factors.col_as_slice_mut(j),
                 self.matrix.col_as_slice(j),
             );
             for ((to, from), row) in to.iter_mut().zip(from).zip(rows) {
-                *to = from * row * columns[j];
+                *to = from * row * column;
             }
         }
         let (info, _) = factor::lu_in_place(

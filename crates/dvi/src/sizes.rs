@@ -31,6 +31,7 @@ impl Kinds {
     }
 
     /// The largest magnitude of each kind into `out`, where that is larger than what is there.
+    #[inline]
     pub(crate) fn raise(&self, out: &mut [f64], numbers: &[f64]) {
         for (run, kind) in &self.runs {
             out[*kind] = larger(out[*kind], largest(&numbers[run.clone()]));
@@ -148,8 +149,9 @@ struct Block {
     /// What brings its momenta to one unit with the others'.
     weight: f64,
     size: f64,
-    /// What the size is relative to.
+    /// What the size is relative to, and its inverse.
     scale: f64,
+    inverse_scale: f64,
     /// What rounding makes of nothing.
     noise: f64,
 }
@@ -172,9 +174,10 @@ impl Sizes {
         let block = |(coordinates, kind): (Range<usize>, usize)| Block {
             coordinates,
             kind,
-            weight: weights.map_or(1.0, |weights| weights.0[kind]),
+            weight: weights.map_or(1.0, |weights| 1.0 / weights.0[kind]),
             size: 0.0,
             scale: 0.0,
+            inverse_scale: f64::INFINITY,
             noise: 0.0,
         };
         let parts = parts.filter(|(part, _)| !part.is_empty());
@@ -186,6 +189,7 @@ impl Sizes {
     }
 
     /// Takes the largest of these momenta for the scale of each block, and forgets the noise.
+    #[inline]
     pub(crate) fn set_scales<V: VectorSpace<Scalar = f64>>(&mut self, terms: [&V; 3]) {
         for block in &mut self.blocks {
             (block.scale, block.noise) = (0.0, 0.0);
@@ -196,8 +200,11 @@ impl Sizes {
                 block.scale = larger(block.scale, block.size);
             }
         }
-        let scales = self.blocks.iter().map(|block| block.scale / block.weight);
-        self.scale = scales.fold(0.0, larger);
+        self.scale = 0.0;
+        for block in &mut self.blocks {
+            block.inverse_scale = 1.0 / block.scale;
+            self.scale = larger(self.scale, block.scale * block.weight);
+        }
     }
 
     /// Whether all scales are zero.
@@ -220,8 +227,13 @@ impl Sizes {
         self.measure(x);
         let (mut size, mut by_block) = (0.0, 0.0);
         for block in &self.blocks {
-            size = larger(size, block.size / block.weight);
-            by_block = larger(by_block, relative(block.size, block.scale));
+            size = larger(size, block.size * block.weight);
+            let relative = if block.size == 0.0 {
+                0.0
+            } else {
+                block.size * block.inverse_scale
+            };
+            by_block = larger(by_block, relative);
         }
         Relative {
             overall: relative(size, self.scale),
@@ -244,7 +256,7 @@ impl Sizes {
     /// The largest of displacements, in one unit.
     pub(crate) fn displacement<V: VectorSpace<Scalar = f64>>(&mut self, x: &V) -> f64 {
         self.measure(x);
-        let sizes = self.blocks.iter().map(|block| block.size * block.weight);
+        let sizes = self.blocks.iter().map(|block| block.size / block.weight);
         sizes.fold(0.0, larger)
     }
 
@@ -291,9 +303,16 @@ impl Relative {
     };
 }
 
+/// The largest magnitude; not a number where one is not finite.
 #[inline(always)]
 fn largest(numbers: &[f64]) -> f64 {
-    numbers.iter().fold(0.0, |max, x| larger(max, x.abs()))
+    let (mut max, mut poison) = (0.0, 0.0);
+    for x in numbers {
+        // One instruction, where `larger` takes three.
+        max = if x.abs() > max { x.abs() } else { max };
+        poison += 0.0 * x;
+    }
+    max + poison
 }
 
 /// Moves a number by two units of its last place, up or down as one of its digits says, every other time up: what cannot be told from it.

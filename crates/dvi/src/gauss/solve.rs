@@ -194,6 +194,9 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         let system = method.0;
         self.sweep.round(Side::Start);
         state.mu.write(&mut self.start);
+        let [_, _, momenta] = &mut self.mismatch;
+        momenta.fill(0.0);
+        self.sweep.kinds.raise(momenta, &self.start);
         for (start, drift) in self.start.iter_mut().zip(&self.drift) {
             *start += drift;
         }
@@ -262,12 +265,9 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         sweep.end_to_start::<R>(h, &state.mu, wanted);
         let kinds = &sweep.kinds;
         parts.fill(0.0);
-        wholes.fill(0.0);
         // A body at rest has a momentum only in between.
-        for momentum in [&state.mu, &sweep.end.momentum] {
-            momentum.write(numbers);
-            kinds.raise(wholes, numbers);
-        }
+        sweep.end.momentum.write(numbers);
+        kinds.raise(wholes, numbers);
         for (number, (a, b)) in numbers.iter_mut().zip(start.iter().zip(&*wanted)) {
             *number = a - b;
         }

@@ -151,10 +151,12 @@ struct Change<S> {
     kinds: Vec<[Largest<S>; 2]>,
     /// Zero, unless a rate is not finite.
     poison: S,
+    /// The same of all items, once they are [gathered](Change::gather).
+    of_all: Vec<[Largest<f64>; 2]>,
 }
 
 /// Of the changes, and of what they are relative to.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Largest<S> {
     change: S,
     size: S,
@@ -169,6 +171,7 @@ impl<S: Batch> Change<S> {
         Self {
             kinds: vec![[none; 2]; kinds],
             poison: S::zero(),
+            of_all: vec![[Largest::default(); 2]; kinds],
         }
     }
 
@@ -205,17 +208,19 @@ impl<S: Batch> Change<S> {
 }
 
 impl<S: Batch<Item = f64>> Change<S> {
-    /// Of all items.
-    fn of(&self, kind: usize) -> [Largest<f64>; 2] {
+    /// Takes the largest of all items.
+    fn gather(&mut self) {
         // What is not a number is in `poison`; one instruction a number, where `larger` takes three.
         let largest = |x: &S| {
             let items = S::items(core::slice::from_ref(x)).iter();
             items.fold(0.0, |a, b| if *b > a { *b } else { a })
         };
-        self.kinds[kind].map(|of| Largest {
-            change: largest(&of.change),
-            size: largest(&of.size),
-        })
+        for (of_all, kind) in self.of_all.iter_mut().zip(&self.kinds) {
+            *of_all = [0, 1].map(|which| Largest {
+                change: largest(&kind[which].change),
+                size: largest(&kind[which].size),
+            });
+        }
     }
 }
 
@@ -598,11 +603,12 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
 
     /// The largest change of the rates in the last sweep, in the kind of coordinates where it is largest: of $\dot c$ relative to it, of
     /// $h \dot\pi$ to the momentum. A change that noise explains is none.
-    pub(super) fn change(&self, h: f64) -> f64 {
+    pub(super) fn change(&mut self, h: f64) -> f64 {
+        self.change.gather();
         let found = (0..self.kinds.count).fold(0.0, |found, kind| {
             let noise = self.noise[kind].map(|noise| NOISE * noise);
             let beside = self.beside(kind);
-            let [c, pi] = self.change.of(kind).map(|of| [of.change, of.size]);
+            let [c, pi] = self.change.of_all[kind].map(|of| [of.change, of.size]);
             let c = relative_beside(c[0], c[1], larger(noise[0], beside[0]));
             let pi = relative_beside(
                 pi[0] * h.abs(),
@@ -624,7 +630,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         let Some(weights) = &self.weights else {
             return [0.0; 2];
         };
-        let size = |which: usize| move |kind: usize| self.change.of(kind)[which].size;
+        let size = |which: usize| move |kind: usize| self.change.of_all[kind][which].size;
         [
             weights.beside_velocities(size(0), kind),
             weights.beside_momenta(size(1), kind),
@@ -671,8 +677,9 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         self.start_at(moved);
         self.evaluate::<R>(system, (t, h));
         self.start_at(g);
+        self.change.gather();
         for (kind, noise) in self.noise.iter_mut().enumerate() {
-            let [c, pi] = self.change.of(kind);
+            let [c, pi] = self.change.of_all[kind];
             // What is not small beside the rates is no rounding.
             for (noise, of) in noise.iter_mut().zip([c, pi]) {
                 if of.change <= LOUDEST * of.size {

@@ -13,6 +13,8 @@ const NORMALIZE_EVERY: u64 = 1024;
 /// Where the momentum in the frame of the identity is this much larger than in the body's, its sum would lose digits: far from
 /// the origin, $x \times p$ outweighs the rest on a semidirect product.
 const FAR: f64 = 8.0;
+/// Steps from one look at that to the next.
+const LOOKS_EVERY: u32 = 8;
 
 /// What is carried from a step to the next beside the state.
 ///
@@ -29,6 +31,8 @@ pub(super) struct Update<G: RealGroup> {
     steps: u64,
     known: bool,
     far: bool,
+    /// Steps to the next look at that.
+    looks: u32,
     kinds: Kinds,
     /// The momentum as numbers, and the largest of each kind, in the frame of the identity and in the body's.
     numbers: Vec<f64>,
@@ -51,6 +55,7 @@ impl<G: RealGroup> Update<G> {
             steps: 0,
             known: false,
             far: false,
+            looks: 0,
             numbers: vec![0.0; zero.dim()],
             sizes: [0, 1].map(|_| vec![0.0; kinds.count]),
             kinds,
@@ -74,6 +79,7 @@ impl<G: RealGroup> Update<G> {
             self.after.g.copy_from(&state.g);
             self.carry = state.g.zero_carry();
             self.begin_momentum(state);
+            self.looks = 0;
         } else if self.far {
             self.begin_momentum(state);
         }
@@ -88,7 +94,11 @@ impl<G: RealGroup> Update<G> {
         self.after
             .g
             .coadjoint_into(&self.spatial, &mut self.after.mu);
-        self.far = self.is_far();
+        if self.looks == 0 {
+            self.far = self.is_far();
+            self.looks = LOOKS_EVERY;
+        }
+        self.looks -= 1;
         if self.far {
             self.after.mu.copy_from(transported);
         }

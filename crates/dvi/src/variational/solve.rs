@@ -330,21 +330,26 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             self.solver.renew::<R>(lagrangian, state, h, &self.c);
         }
         let iterations = self.finish_cyclic::<R>(lagrangian, state, h)?;
+        let solved = |iterations, residual, turns| Ended {
+            report: StepReport {
+                iterations,
+                residual,
+            },
+            at: End::Solved,
+            turns,
+        };
+        // The iteration contracts: the solution's matrix has the signs of the one that it is found by.
+        let turns = self.solver.turns();
+        if iterations == 0 {
+            return Some(solved(0, found.overall, turns));
+        }
         if self.sizes.have_no_scale() {
             // Only the cyclic coordinates have moved, and the others follow.
             self.set_scales(state);
         }
         let now = self.residual();
         let holds = goal.is_reached(now) || now.overall <= 2.0 * found.overall;
-        // The iteration contracts: the solution's matrix has the signs of the one that it is found by.
-        (iterations == 0 || holds).then(|| Ended {
-            report: StepReport {
-                iterations,
-                residual: now.overall,
-            },
-            at: End::Solved,
-            turns: self.solver.turns(),
-        })
+        holds.then(|| solved(iterations, now.overall, self.solver.turns()))
     }
 
     /// The momenta in the balance as it is evaluated first: before the step, after it, and what a force adds to either.
