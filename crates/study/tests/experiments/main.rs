@@ -9,6 +9,7 @@ mod hard;
 mod laws;
 mod methods;
 mod problems;
+mod scales;
 mod stability;
 mod systems;
 mod views;
