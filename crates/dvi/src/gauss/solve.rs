@@ -165,6 +165,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         (state, h): Start<C>,
     ) -> Result<(), Failure> {
         self.sweep.start_at(&state.g);
+        self.sweep.forget_rounding();
         self.sweep.weigh(system, (state.t, &state.mu));
         let known = self
             .predictor
@@ -272,7 +273,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             *number = a - b;
         }
         kinds.raise(parts, numbers);
-        let noise = |kind| sweep.noise_of_momentum(h, kind);
+        let noise = |kind| sweep.rounding_of_momentum(kind);
         let mut in_block = 0.0;
         if last {
             difference.read(numbers);

@@ -11,6 +11,8 @@ use crate::ContinuousSystem;
 use crate::numbers::larger;
 use crate::sizes::{Kinds, NOISE, Weights, relative_beside, shaken};
 
+/// Sweeps for which it holds what is rounding.
+const ROUNDING_HOLDS: u32 = 4;
 /// Noise above this part of the rates or momenta is none: the motion is lost anyway.
 const LOUDEST: f64 = 1e-4;
 /// Sweeps that bring guessed velocities to the chart: each leaves about a hundredth of the error.
@@ -139,7 +141,10 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     change: Change<S>,
     /// What rounding makes of no change, in the rates of each kind; zero where that has not been looked at.
     noise: Vec<[f64; 2]>,
-    /// How often numbers were moved to measure it.
+    /// What is rounding in each kind, of the rates and of the momenta, and for how many sweeps that holds.
+    rounding: Vec<[f64; 2]>,
+    rounding_holds: u32,
+    /// How often numbers were moved to measure noise.
     shakes: u32,
     /// New rates of a block.
     rates: Vec<S>,
@@ -251,6 +256,8 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             g: lifted,
             change: Change::new(kinds.count),
             noise: vec![[0.0; 2]; kinds.count],
+            rounding: vec![[0.0; 2]; kinds.count],
+            rounding_holds: 0,
             shakes: 0,
             kinds,
             weights: None,
@@ -605,16 +612,15 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
     /// $h \dot\pi$ to the momentum. A change that noise explains is none.
     pub(super) fn change(&mut self, h: f64) -> f64 {
         self.change.gather();
-        let found = (0..self.kinds.count).fold(0.0, |found, kind| {
-            let noise = self.noise[kind].map(|noise| NOISE * noise);
-            let beside = self.beside(kind);
-            let [c, pi] = self.change.of_all[kind].map(|of| [of.change, of.size]);
-            let c = relative_beside(c[0], c[1], larger(noise[0], beside[0]));
-            let pi = relative_beside(
-                pi[0] * h.abs(),
-                pi[1],
-                larger(noise[1] * h.abs(), beside[1]),
-            );
+        if self.rounding_holds == 0 {
+            self.rounding_holds = ROUNDING_HOLDS;
+            self.find_rounding(h);
+        }
+        self.rounding_holds -= 1;
+        let kinds = self.change.of_all.iter().zip(&self.rounding);
+        let found = kinds.fold(0.0, |found, ([c, pi], rounding)| {
+            let c = relative_beside(c.change, c.size, rounding[0]);
+            let pi = relative_beside(pi.change * h.abs(), pi.size, rounding[1]);
             larger(found, larger(c, pi))
         });
         let poison = core::slice::from_ref(&self.change.poison);
@@ -623,6 +629,22 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
 
     pub(super) fn weights(&self) -> Option<&Weights> {
         self.weights.as_ref()
+    }
+
+    /// What is rounding in each kind, of the rates and of the momenta: noise, or rounding of the other kinds.
+    fn find_rounding(&mut self, h: f64) {
+        for kind in 0..self.kinds.count {
+            let ([c, pi], beside) = (self.noise[kind], self.beside(kind));
+            self.rounding[kind] = [
+                larger(NOISE * c, beside[0]),
+                larger(NOISE * h.abs() * pi, beside[1]),
+            ];
+        }
+    }
+
+    /// Looks anew at what is rounding in the next sweep.
+    pub(super) fn forget_rounding(&mut self) {
+        self.rounding_holds = 0;
     }
 
     /// What is rounding beside the other kinds, of the rates $\dot c$ and of the momenta.
@@ -654,9 +676,8 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
     }
 
     /// How much of a momentum of a kind is rounding in a step, as far as that is known.
-    pub(super) fn noise_of_momentum(&self, h: f64, kind: usize) -> f64 {
-        let [_, pi] = self.noise[kind];
-        larger(NOISE * h.abs() * pi, self.beside(kind)[1])
+    pub(super) fn rounding_of_momentum(&self, kind: usize) -> f64 {
+        self.rounding[kind][1]
     }
 
     /// Measures what rounding makes of the rates at the stages' places: how much they change where every number that they follow from moves in
@@ -668,6 +689,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         (g, moved): (&C::Group, &mut C::Group),
         (t, h): (f64, f64),
     ) {
+        self.forget_rounding();
         self.shakes += 1;
         let time = self.shakes;
         for places in [&mut self.c, &mut self.pi] {
