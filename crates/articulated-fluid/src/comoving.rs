@@ -1,6 +1,6 @@
 //! A frame that moves and falls with the mass centre.
 //!
-//! Where every total mass $m_i$ is the same in all directions, as in a vacuum or of spheres in water, uniform motion and a uniform field
+//! In a vacuum, and of spheres in water, every total mass $m_i$ is the same in all directions. Uniform motion and a uniform field then
 //! do not change how the bodies move about their mass centre. With $M = \sum_i m_i$ and the total net mass $W$ under the gravity
 //! $\gamma$, that centre and its velocity are
 //! $$ a = \frac{W}{M} \gamma, \qquad V(t) = V_0 + a (t - t_0), \qquad X(t) = X_0 + V_0 (t - t_0) + \tfrac12 a (t - t_0)^2 , $$

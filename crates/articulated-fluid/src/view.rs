@@ -40,8 +40,8 @@ pub trait View: Clone {
 
 /// An integrator of a scene's own states by one of the states of a [`View`].
 ///
-/// While the caller hands back the state that was given out, the inner one is kept, with all its digits and with what the inner
-/// integrator knows of it. Its time may have been reset by rounding.
+/// The inner state is kept with all its digits while the caller hands back the state that was given out. So is what the inner
+/// integrator knows of it. The time may have been reset by rounding.
 #[derive(Clone, Debug)]
 pub struct Viewed<V: View, I> {
     view: V,

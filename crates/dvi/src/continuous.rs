@@ -50,8 +50,9 @@ pub trait ContinuousSystem {
         true
     }
 
-    /// A coordinate along which the kinetic energy has no inertia, so that a momentum there has no velocity; asked for where an evaluation is not
-    /// finite, to say why.
+    /// A coordinate along which the kinetic energy has no inertia, if there is one: a momentum there has no velocity.
+    ///
+    /// Integrators ask for it before their first step.
     fn without_inertia(&self, _t: f64, _g: &Self::Group) -> Option<usize> {
         None
     }

@@ -7,7 +7,7 @@ use crate::elimination::Elimination;
 use crate::jets::{Lifted, add_constant, for_each_chunk, read_partials};
 use crate::numbers::{larger, relative};
 use crate::sizes::Kinds;
-use crate::{ContinuousSystem, Lagrangian, State};
+use crate::{ContinuousSystem, Lagrangian, State, lagrangian};
 
 /// Newton iterations before a momentum is taken to have no velocity.
 const MAX_ITERATIONS: u32 = 50;
@@ -330,8 +330,7 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     }
 
     fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        let still = g.zero_algebra();
-        self.0.value_at::<f64>(t, g, &still).is_finite()
+        lagrangian::is_defined(&self.0, t, g)
     }
 
     fn without_inertia(&self, t: f64, g: &L::Group) -> Option<usize> {

@@ -157,6 +157,12 @@ pub trait Lagrangian {
     }
 }
 
+/// Whether $L$ has a value at rest at `g`: whether that is in its domain.
+pub(crate) fn is_defined<L: Lagrangian>(lagrangian: &L, t: f64, g: &L::Group) -> bool {
+    let still = g.zero_algebra();
+    lagrangian.value_at::<f64>(t, g, &still).is_finite()
+}
+
 impl<L: Lagrangian> Lagrangian for &L {
     type Group = L::Group;
 

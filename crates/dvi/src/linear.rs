@@ -8,7 +8,7 @@ use faer::perm::PermRef;
 use faer::{Mat, MatMut, Par, Spec};
 
 use crate::degenerate::Square;
-use crate::sizes::{exponent, power_of_two};
+use crate::numbers::{exponent, power_of_two};
 
 /// A square matrix, its LU factorisation with partial pivoting, and a right-hand side.
 ///

@@ -6,7 +6,7 @@ use core::ops::Range;
 
 use lie::{AlgebraOver, Cayley, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
 
-use crate::{DiscreteLagrangian, Force, Forced, Lagrangian};
+use crate::{DiscreteLagrangian, Force, Forced, Lagrangian, lagrangian};
 
 /// Where along a step from $g$ to $g f$ a rule looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -184,8 +184,7 @@ impl<L: Lagrangian, Q: Quadrature, R: Retraction> DiscreteLagrangian for Discret
     }
 
     fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        let still = g.zero_algebra();
-        self.system.value_at::<f64>(t, g, &still).is_finite()
+        lagrangian::is_defined(&self.system, t, g)
     }
 
     fn order(&self) -> u32 {

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use lie::{LieGroup, Units, VectorSpace};
 
-use crate::numbers::{larger, relative};
+use crate::numbers::{exponent, larger, power_of_two, relative};
 
 /// The last digits of a number choose the direction of its shake.
 const DIGITS: u32 = 8;
@@ -44,17 +44,22 @@ const SAMPLES: usize = 64;
 /// A change smaller than this fraction of the other kinds' is their rounding.
 const BESIDE: f64 = 4.0 * f64::EPSILON;
 
-/// Factors that bring the kinds to one unit: the roots of their inertias.
+/// What brings the kinds to one unit: the roots of their inertias.
 ///
 /// With them it can be said whether one kind's size is rounding beside the others': a body that turns about its mass centre has no
 /// linear momentum to be relative to.
 #[derive(Clone)]
-pub(crate) struct Weights(Vec<f64>);
+pub(crate) struct Weights {
+    pub(crate) velocities: Factors,
+    pub(crate) momenta: Factors,
+}
+
+/// A factor for each kind; powers of two, which follow the units exactly.
+#[derive(Clone)]
+pub(crate) struct Factors(Vec<f64>);
 
 impl Weights {
     /// From the inertia of a kind along one of its coordinates; none where a kind has no finite one.
-    ///
-    /// Powers of two, which follow the units exactly.
     pub(crate) fn new(kinds: &Kinds, mut inertia: impl FnMut(usize, usize) -> f64) -> Option<Self> {
         /// Inertias that are powers of two are far from where the exponent changes.
         const BETWEEN: f64 = core::f64::consts::SQRT_2;
@@ -68,61 +73,39 @@ impl Weights {
             exponents.push(exponent(sampled.fold(0.0, larger))?);
         }
         let first = exponents.first().copied().unwrap_or(0);
-        let weight = |e: &i32| power_of_two((e - first).div_euclid(2));
-        Some(Self(exponents.iter().map(weight).collect()))
+        let halves = || exponents.iter().map(|e| (e - first).div_euclid(2));
+        Some(Self {
+            velocities: Factors(halves().map(power_of_two).collect()),
+            momenta: Factors(halves().map(|half| power_of_two(-half)).collect()),
+        })
     }
+}
 
-    /// What brings velocities of a kind to the unit of the first.
+impl Factors {
     pub(crate) fn of(&self, kind: usize) -> f64 {
         self.0[kind]
     }
 
-    /// The largest of velocities of each kind, in the unit of the first.
-    fn velocity(&self, sizes: impl Iterator<Item = f64>) -> f64 {
+    /// The largest of sizes, one for each kind, in the unit of the first.
+    fn largest(&self, sizes: impl Iterator<Item = f64>) -> f64 {
         let all = sizes.zip(&self.0);
-        all.fold(0.0, |max, (size, weight)| larger(max, size * weight))
+        all.fold(0.0, |max, (size, factor)| larger(max, size * factor))
     }
 
-    /// The same of momenta.
-    fn momentum(&self, sizes: impl Iterator<Item = f64>) -> f64 {
-        let all = sizes.zip(&self.0);
-        all.fold(0.0, |max, (size, weight)| larger(max, size / weight))
-    }
-
-    /// Gives a kind without any velocity the size of the others'.
-    pub(crate) fn fill_velocities(&self, sizes: &mut [f64]) {
-        let largest = self.velocity(sizes.iter().copied());
-        for (size, weight) in sizes.iter_mut().zip(&self.0) {
-            *size = if *size == 0.0 {
-                largest / weight
-            } else {
-                *size
-            };
+    /// Gives a kind without any size that of the others.
+    pub(crate) fn fill(&self, sizes: &mut [f64]) {
+        let largest = self.largest(sizes.iter().copied());
+        for (size, factor) in sizes.iter_mut().zip(&self.0) {
+            if *size == 0.0 {
+                *size = largest / factor;
+            }
         }
     }
 
-    /// The same of momenta.
-    pub(crate) fn fill_momenta(&self, sizes: &mut [f64]) {
-        let largest = self.momentum(sizes.iter().copied());
-        for (size, weight) in sizes.iter_mut().zip(&self.0) {
-            *size = if *size == 0.0 {
-                largest * weight
-            } else {
-                *size
-            };
-        }
-    }
-
-    /// What is rounding of the other kinds' velocities, in one kind.
-    pub(crate) fn beside_velocities(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
+    /// What is rounding of the other kinds, in one kind.
+    pub(crate) fn beside(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
         let others = (0..self.0.len()).map(|k| if k == kind { 0.0 } else { sizes(k) });
-        BESIDE * self.velocity(others) / self.0[kind]
-    }
-
-    /// The same of momenta.
-    pub(crate) fn beside_momenta(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
-        let others = (0..self.0.len()).map(|k| if k == kind { 0.0 } else { sizes(k) });
-        BESIDE * self.momentum(others) * self.0[kind]
+        BESIDE * self.largest(others) / self.0[kind]
     }
 }
 
@@ -174,7 +157,7 @@ impl Sizes {
         let block = |(coordinates, kind): (Range<usize>, usize)| Block {
             coordinates,
             kind,
-            weight: weights.map_or(1.0, |weights| 1.0 / weights.0[kind]),
+            weight: weights.map_or(1.0, |weights| weights.momenta.of(kind)),
             size: 0.0,
             scale: 0.0,
             inverse_scale: f64::INFINITY,
@@ -190,12 +173,12 @@ impl Sizes {
 
     /// Takes the largest of these momenta for the scale of each block, and forgets the noise.
     #[inline]
-    pub(crate) fn set_scales<V: VectorSpace<Scalar = f64>>(&mut self, terms: [&V; 3]) {
+    pub(crate) fn set_scales<V: VectorSpace<Scalar = f64>>(&mut self, terms: &[&V]) {
         for block in &mut self.blocks {
             (block.scale, block.noise) = (0.0, 0.0);
         }
         for term in terms {
-            self.measure(term);
+            self.measure(*term);
             for block in &mut self.blocks {
                 block.scale = larger(block.scale, block.size);
             }
@@ -260,7 +243,7 @@ impl Sizes {
         sizes.fold(0.0, larger)
     }
 
-    /// Takes the difference of two evaluations that are the same but for rounding for the noise of each block, where it is larger than before.
+    /// Takes the difference of two evaluations that are the same but for rounding: the noise of each block, where it is larger than before.
     pub(crate) fn raise_noise<V: VectorSpace<Scalar = f64>>(&mut self, difference: &V) {
         self.measure(difference);
         for block in &mut self.blocks {
@@ -268,8 +251,9 @@ impl Sizes {
         }
     }
 
-    /// Whether each block of the vector that was [measured](Self::relative) last is within the tolerance, or is noise, or asks for a correction
-    /// that is no more than that of the whole displacement.
+    /// Whether each block of the vector that was [measured](Self::relative) last is solved.
+    ///
+    /// It is where it is within the tolerance, or is noise. It is too where the correction that it asks for is small beside the displacement.
     pub(crate) fn are_settled<V: VectorSpace<Scalar = f64>>(
         &self,
         (correction, whole): (&V, &V),
@@ -329,14 +313,4 @@ pub(crate) fn shaken(x: f64, time: u32) -> f64 {
 /// Shakes every coordinate.
 pub(crate) fn shake<V: VectorSpace<Scalar = f64>>(x: &mut V, time: u32) {
     (0..x.dim()).for_each(|i| x.set(i, shaken(x.get(i), time)));
-}
-
-/// That of the power of two at or below the magnitude; none of zero and of what is no number.
-pub(crate) fn exponent(x: f64) -> Option<i32> {
-    let biased = (x.to_bits() >> 52) as i32 & 0x7ff;
-    (biased != 0 && biased != 0x7ff).then_some(biased - 0x3ff)
-}
-
-pub(crate) fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent.clamp(-0x3fe, 0x3ff) + 0x3ff) as u64) << 52)
 }

@@ -31,7 +31,7 @@ impl WarmStart {
     pub(crate) fn new<G: LieGroup>(g: &G, weights: Option<&Weights>) -> Self {
         let dim = g.zero_dual().dim();
         let runs = Units::of(g).runs().into_iter().map(|(run, kind)| {
-            let weight = weights.map_or(1.0, |weights| weights.of(kind));
+            let weight = weights.map_or(1.0, |weights| weights.velocities.of(kind));
             (run, weight)
         });
         Self {

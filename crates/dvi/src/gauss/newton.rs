@@ -139,10 +139,10 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         // A kind that does not move has no size but beside the others.
         let [velocities, momenta @ ..] = sizes;
         if let Some(weights) = weights {
-            weights.fill_velocities(velocities);
+            weights.velocities.fill(velocities);
             momenta
                 .iter_mut()
-                .for_each(|sizes| weights.fill_momenta(sizes));
+                .for_each(|sizes| weights.momenta.fill(sizes));
         }
         let size = |i: usize| sizes[which(i / dim)][kind_of[i % dim]];
         matrix.factorise_map((0..x.len()).map(size));

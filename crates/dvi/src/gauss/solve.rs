@@ -251,8 +251,9 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             .measure_noise::<R>(system, (&state.g, &mut self.moved), (state.t, h));
     }
 
-    /// How far $\pi_0$ is from what the step's end asks for, relative to the momentum, in the kind of coordinates where that is largest; at the
-    /// last look, with less weight, in each block too. What noise explains is none.
+    /// How far $\pi_0$ is from what the step's end asks for, relative to the momentum, in the kind of coordinates where that is largest.
+    ///
+    /// At the last look each block counts too, with less weight. What noise explains is none.
     fn mismatch<R: Retraction>(&mut self, (state, h): Start<C>, last: bool) -> f64 {
         let Self {
             sweep,
@@ -277,7 +278,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         let mut in_block = 0.0;
         if last {
             difference.read(numbers);
-            sizes.set_scales([&state.mu, &sweep.end.momentum, &sweep.end.momentum]);
+            sizes.set_scales(&[&state.mu, &sweep.end.momentum]);
             in_block = sizes.relative_above(difference, noise);
         }
         let kinds = parts.iter().zip(wholes).enumerate();

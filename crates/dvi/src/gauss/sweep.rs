@@ -161,32 +161,33 @@ struct Change<S> {
 }
 
 /// Of the changes, and of what they are relative to.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Largest<S> {
     change: S,
     size: S,
 }
 
-impl<S: Batch> Change<S> {
-    fn new(kinds: usize) -> Self {
-        let none = Largest {
+impl<S: Zero> Largest<S> {
+    fn none() -> Self {
+        Self {
             change: S::zero(),
             size: S::zero(),
-        };
+        }
+    }
+}
+
+impl<S: Batch> Change<S> {
+    fn new(kinds: usize) -> Self {
         Self {
-            kinds: vec![[none; 2]; kinds],
+            kinds: vec![[Largest::none(); 2]; kinds],
             poison: S::zero(),
-            of_all: vec![[Largest::default(); 2]; kinds],
+            of_all: vec![[Largest::none(); 2]; kinds],
         }
     }
 
     #[inline(always)]
     fn clear(&mut self) {
-        let none = Largest {
-            change: S::zero(),
-            size: S::zero(),
-        };
-        self.kinds.fill([none; 2]);
+        self.kinds.fill([Largest::none(); 2]);
         self.poison = S::zero();
     }
 
@@ -654,8 +655,8 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         };
         let size = |which: usize| move |kind: usize| self.change.of_all[kind][which].size;
         [
-            weights.beside_velocities(size(0), kind),
-            weights.beside_momenta(size(1), kind),
+            weights.velocities.beside(size(0), kind),
+            weights.momenta.beside(size(1), kind),
         ]
     }
 

@@ -84,11 +84,12 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     /// The largest error of a solved step, relative; unless set, 1e-13 for up to 12 coordinates and growing as their root, as rounding
     /// does.
     ///
-    /// Coordinates of one unit are judged together, and each rotation and each vector of a product by itself to ten times the tolerance, so
-    /// that neither units nor the ratio of masses matter: by the residual relative to the momentum, or by the correction that it asks for
-    /// relative to the displacement. Unless set, a residual that no
-    /// longer shrinks is also taken for solved where rounding explains it: where it is at most 16 times what moving every number of the
-    /// state by two units of its last place makes of it.
+    /// What is judged is the residual relative to the momentum: of all coordinates together, and of each rotation and each vector of a
+    /// product by itself, to ten times the tolerance. So neither units nor the ratio of masses matter. A correction that is negligible
+    /// beside the displacement is enough too.
+    ///
+    /// Unless a tolerance is set, a residual that no longer shrinks is also taken for solved where rounding explains it. That is so where it
+    /// is at most 16 times what moving every number of the state by two units of its last place makes of it.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = Some(tolerance);
         self
@@ -106,13 +107,8 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     pub fn displacement(&mut self, state: &State<L::Group>, h: f64) -> Result<L::Group, StepError> {
         self.solve(state, h)?;
         let f = self.work((state.t, h), &state.g).balance.f.clone();
-        if !self
-            .lagrangian
-            .is_defined(state.t + h, &state.g.compose(&f))
-        {
-            let (step, t) = (self.steps, state.t);
-            return Err(StepError::NotFinite { step, t, h });
-        }
+        let time = (self.steps, state.t, h);
+        require_end(&self.lagrangian, &state.g.compose(&f), time)?;
         Ok(f)
     }
 
@@ -149,20 +145,13 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         if self.normalizes() {
             next.g.normalize();
         }
-        let step = self.steps;
-        let finite = |x: &L::Group| {
-            let (t, h) = (*t, *h);
-            x.is_finite()
-                .then_some(())
-                .ok_or(StepError::NotFinite { step, t, h })
-        };
-        finite(&next.g)?;
-        if !self.lagrangian.is_defined(next.t, &next.g) {
-            let (t, h) = (*t, *h);
+        let (step, t_k, h_k) = (self.steps, *t, *h);
+        require_end(&self.lagrangian, &next.g, (step, t_k, h_k))?;
+        let report = self.solve(&next, h_k)?;
+        if !self.work((next.t, h_k), &next.g).balance.f.is_finite() {
+            let (t, h) = (t_k, h_k);
             return Err(StepError::NotFinite { step, t, h });
         }
-        let report = self.solve(&next, *h)?;
-        finite(&self.work((next.t, *h), &next.g).balance.f)?;
         self.accept(*h);
         f.clone_from(&self.work((next.t, *h), &next.g).balance.f);
         (*t, *g) = (next.t, next.g);
@@ -178,10 +167,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         if normalizes {
             work.next.normalize();
         }
-        let next = &work.next;
-        if !(next.is_finite() && self.lagrangian.is_defined(t + h, next)) {
-            return Err(StepError::NotFinite { step, t, h });
-        }
+        require_end(lagrangian, &work.next, (step, t, h))?;
         core::mem::swap(&mut state.g, &mut work.next);
         core::mem::swap(&mut state.mu, &mut work.balance.transported);
         state.t += h;
@@ -293,6 +279,17 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     }
 }
 
+/// Refuses a step number `step` of size `h` from `t` that ends at no configuration of the Lagrangian's domain.
+fn require_end<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    end: &L::Group,
+    (step, t, h): (u64, f64, f64),
+) -> Result<(), StepError> {
+    let ends = end.is_finite() && lagrangian.is_defined(t + h, end);
+    ends.then_some(())
+        .ok_or(StepError::NotFinite { step, t, h })
+}
+
 fn failure((step, t, h): (u64, f64, f64), tolerance: f64, ended: &Ended) -> StepError {
     let StepReport {
         iterations,
@@ -347,9 +344,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
             g: state.g.compose(&balance.f),
             mu: balance.transported.clone(),
         };
-        if !self.lagrangian.is_defined(ahead.t, &ahead.g) {
-            return Err(StepError::NotFinite { step, t, h });
-        }
+        require_end(&self.lagrangian, &ahead.g, (step, t, h))?;
         ahead.if_finite(step, t, h)
     }
 

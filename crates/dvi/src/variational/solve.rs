@@ -362,7 +362,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             ..
         } = &self.balance;
         self.sizes
-            .set_scales([&state.mu, transported, &derivatives.d_f]);
+            .set_scales(&[&state.mu, transported, &derivatives.d_f]);
     }
 
     /// The residual relative to the momenta.

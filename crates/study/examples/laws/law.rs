@@ -92,7 +92,7 @@ impl Law {
 }
 
 /// The attitudes after every step, as far as it got, in the order of the bodies' names.
-fn run(scene: &Scene, method: Method, h: f64, steps: usize) -> Vec<Vec<SO3>> {
+pub fn run(scene: &Scene, method: Method, h: f64, steps: usize) -> Vec<Vec<SO3>> {
     let smallest = scene.smallest().expect("a random scene is a model");
     let mut integrator = method.integrator_of_smallest(&smallest);
     let mut state = scene.initial_state().expect("a random scene has a start");
@@ -112,7 +112,7 @@ fn run(scene: &Scene, method: Method, h: f64, steps: usize) -> Vec<Vec<SO3>> {
 }
 
 /// The largest angle between bodies, rad; of runs that end at different steps, infinite.
-fn apart(a: &[Vec<SO3>], b: &[Vec<SO3>]) -> f64 {
+pub fn apart(a: &[Vec<SO3>], b: &[Vec<SO3>]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
     }

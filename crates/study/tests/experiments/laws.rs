@@ -3,7 +3,7 @@
 #[path = "../../examples/laws/change.rs"]
 mod change;
 #[path = "../../examples/laws/law.rs"]
-mod law;
+pub mod law;
 #[path = "../../examples/laws/random.rs"]
 mod random;
 

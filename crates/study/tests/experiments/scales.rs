@@ -3,25 +3,15 @@
 use articulated_fluid::Scene;
 use lie::SO3;
 use study::methods::Method;
-use study::watch::attitudes;
 
-/// The attitudes after steps of a method.
-fn run(text: &str, method: Method, h: f64, steps: u32) -> Vec<SO3> {
+use crate::laws::law::{self, apart};
+
+/// The attitudes after each step of a method.
+fn run(text: &str, method: Method, h: f64, steps: usize) -> Vec<Vec<SO3>> {
     let scene = Scene::parse(text, "scales.toml").unwrap();
-    let mut integrator = method.integrator_of_smallest(&scene.smallest().unwrap());
-    let mut state = scene.initial_state().unwrap();
-    for _ in 0..steps {
-        integrator
-            .step(&mut state, h)
-            .unwrap_or_else(|e| panic!("{method}: {e}"));
-    }
-    attitudes(&state.g).copied().collect()
-}
-
-/// The largest angle between bodies, rad.
-fn apart(a: &[SO3], b: &[SO3]) -> f64 {
-    let angle = |(a, b): (&SO3, &SO3)| (*a.matrix() - *b.matrix()).frobenius() / 2.0_f64.sqrt();
-    a.iter().zip(b).map(angle).fold(0.0, f64::max)
+    let states = law::run(&scene, method, h, steps);
+    assert_eq!(states.len(), steps, "{method}: a step was refused");
+    states
 }
 
 /// Masses 1, m and m / 2.
