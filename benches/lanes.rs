@@ -8,7 +8,7 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use divan::{Bencher, black_box};
-use dvi::{ContinuousSystem, Gauss, Integrator, State};
+use dvi::{Context, ContinuousSystem, Gauss, Integrator, State};
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::lanes::{self, InstructionSet, Job};
 use lie::{AlgebraOver, Batch, DualOver, LieGroup, RealGroup, VectorSpace};
@@ -47,7 +47,7 @@ impl Job for Evaluate<'_, '_> {
         for i in 0..mu.dim() {
             mu.set(i, S::splat(self.state.mu.get(i)));
         }
-        let mut work = ContinuousSystem::workspace::<S>(self.model, &g);
+        let mut work = Default::default();
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
         self.bencher.bench_local(|| {
             for _ in 0..REPEATS {
@@ -72,7 +72,7 @@ fn evaluate<S: Batch>(
 ) {
     S::run(
         #[inline(always)]
-        || model.velocity_and_force::<S>(S::zero(), g, mu, work, xi, tau),
+        || model.velocity_and_force::<S>(Context::new(S::zero(), &[]), g, mu, work, xi, tau),
     );
 }
 
@@ -101,7 +101,7 @@ fn evaluations(bencher: Bencher, set: InstructionSet, bodies: usize) {
 fn fish_gauss_8_x40(bencher: Bencher, set: InstructionSet) {
     let (model, state) = chain(3);
     bencher.bench_local(|| {
-        let mut integrator = Gauss::<_, 8>::new(model.clone()).with_instructions(set);
+        let mut integrator = Gauss::new::<8>(model.clone()).with_instructions(set);
         let mut state = state.clone();
         for _ in 0..40 {
             integrator

@@ -4,9 +4,16 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use divan::{Bencher, black_box};
-use dvi::{ContinuousSystem, DiscreteLagrangian, Gauss, Integrator, State, Variational};
+use dvi::{
+    Context, ContinuousSystem, DiscreteLagrangian, Gauss, Integrator, State, System, Variational,
+};
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::{LieGroup, Scalar};
+
+#[path = "../crates/articulated-fluid/tests/model/by_duals.rs"]
+mod by_duals;
+
+use by_duals::ByDuals;
 
 const H: f64 = 1e-3;
 /// Steps or evaluations in one measured call, so that the clock's own cost does not count.
@@ -32,12 +39,12 @@ fn paper() -> (ArticulatedBody, State<Configuration>) {
 #[divan::bench]
 fn evaluation_x1000(bencher: Bencher) {
     let (model, state) = paper();
-    let mut workspace = ContinuousSystem::workspace::<f64>(&model, &state.g);
+    let (at, mut work) = (Context::new(0.0, &[]), Default::default());
     let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
     bencher.bench_local(|| {
         for _ in 0..BATCH {
             let (g, mu) = black_box((&state.g, &state.mu));
-            model.velocity_and_force::<f64>(0.0, g, mu, &mut workspace, &mut xi, &mut tau);
+            model.velocity_and_force::<f64>(at, g, mu, &mut work, &mut xi, &mut tau);
             black_box((&xi, &tau));
         }
     });
@@ -47,7 +54,7 @@ fn evaluation_x1000(bencher: Bencher) {
 #[divan::bench]
 fn step_x1000(bencher: Bencher) {
     let (model, mut state) = paper();
-    let mut integrator = Variational::with_inertia(model);
+    let mut integrator = Variational::new(model);
     bencher.bench_local(|| {
         for _ in 0..BATCH {
             integrator
@@ -60,11 +67,21 @@ fn step_x1000(bencher: Bencher) {
 /// (22) without its derivatives (29)–(33).
 struct ValueOnly(ArticulatedBody);
 
-impl DiscreteLagrangian for ValueOnly {
+impl System for ValueOnly {
     type Group = Configuration;
+}
 
-    fn value<S: Scalar>(&self, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {
-        DiscreteLagrangian::value(&self.0, g, f, h)
+impl DiscreteLagrangian for ValueOnly {
+    type Workspace<S: Scalar> = ();
+
+    fn value<S: Scalar>(
+        &self,
+        at: Context<S>,
+        g: &Configuration<S>,
+        f: &Configuration<S>,
+        h: S,
+    ) -> S {
+        DiscreteLagrangian::value(&self.0, at, g, f, h)
     }
 }
 
@@ -86,7 +103,7 @@ fn step_value_only_x1000(bencher: Bencher) {
 #[divan::bench(sample_count = 20)]
 fn step_gauss_4_x1000(bencher: Bencher) {
     let (model, mut state) = paper();
-    let mut integrator = Gauss::<_, 4>::new(model);
+    let mut integrator = Gauss::new::<4>(model);
     bencher.bench_local(|| {
         for _ in 0..BATCH {
             integrator
@@ -100,7 +117,7 @@ fn step_gauss_4_x1000(bencher: Bencher) {
 #[divan::bench]
 fn step_by_duals_x1000(bencher: Bencher) {
     let (model, mut state) = paper();
-    let mut integrator = Variational::new(model);
+    let mut integrator = Variational::new(ByDuals(model));
     bencher.bench_local(|| {
         for _ in 0..BATCH {
             integrator

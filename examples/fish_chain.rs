@@ -65,7 +65,7 @@ fn variational(
 ) -> Result<Vec<State<Configuration>>, Box<dyn Error>> {
     let clock = Instant::now();
     let (mut state, mut states) = (start.clone(), vec![start.clone()]);
-    let mut integrator = Variational::with_inertia(model.clone());
+    let mut integrator = Variational::new(model.clone());
     let samples = (seconds / (STEP * f64::from(EVERY))).round() as u32;
     for _ in 0..samples {
         for _ in 0..EVERY {
@@ -123,8 +123,9 @@ impl Trajectory {
         states: &[State<Configuration>],
     ) -> Result<Self, ModelError> {
         let velocities = |state| {
-            let (omega0, dx, omega) = model.velocity(state)?;
-            Ok([omega0.vec3(), dx.vec3(), omega[0].vec3(), omega[1].vec3()])
+            let (omega, dx) = model.velocity(state)?;
+            let [head, one, two] = [0, 1, 2].map(|i| omega[i].vec3());
+            Ok([head, dx[0].vec3(), one, two])
         };
         Ok(Self {
             name,

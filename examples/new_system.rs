@@ -3,7 +3,8 @@
 //! `cargo run --release --example new_system`
 
 use lgvi::dvi::{
-    Integrator, Lagrangian, LeftTranslation, Midpoint, RightTranslation, Variational, laws,
+    Context, Integrator, Lagrangian, LeftTranslation, Quadrature, RightTranslation, System,
+    Variational, laws,
 };
 use lgvi::lie::{LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
 
@@ -15,11 +16,13 @@ struct HeavyTop {
     lever: Vec3,
 }
 
-impl Lagrangian for HeavyTop {
+impl System for HeavyTop {
     type Group = SO3;
+}
 
+impl Lagrangian for HeavyTop {
     /// Kinetic minus potential energy.
-    fn value<S: Scalar>(&self, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
+    fn value<S: Scalar>(&self, _: Context<S>, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
         let omega = omega.vec3();
         let kinetic = omega.dot(self.inertia.lift() * omega) * S::from_f64(0.5);
         let height = r.rotate(self.lever.lift())[2];
@@ -37,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = top.state(0.0, leaning, &Tangent([0.0, 0.0, 10.0]))?;
 
     // The proof: derivatives, symplecticity, reversibility; the value; the symmetries; the order.
-    let discrete = (&top).discretise::<Midpoint>();
+    let discrete = (&top).discretise(Quadrature::Midpoint);
     let (states, e3) = ([start.clone()], Tangent([0.0, 0.0, 1.0]));
     laws::check(&discrete, &states, 0.01)?;
     laws::check_consistency(&discrete, &top, &states)?;

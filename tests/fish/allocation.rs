@@ -1,12 +1,13 @@
 //! After the first step, no step allocates: with the model's inertia, and with everything from the value alone.
 
 use allocation_counter::measure;
-use articulated_fluid::{OnSe3, Scene};
+use articulated_fluid::Scene;
 use dvi::{Composition, Gauss, Integrator, State, Variational};
 use lgvi::{articulated_fluid, dvi};
 use study::methods::Method;
 
-use crate::common::paper;
+use crate::by_duals::ByDuals;
+use crate::common::{ValueOnly, paper};
 
 fn allocations<I: Integrator>(mut integrator: I, mut state: State<I::Group>) -> u64 {
     integrator.step(&mut state, 1e-3).unwrap();
@@ -24,28 +25,23 @@ fn allocations<I: Integrator>(mut integrator: I, mut state: State<I::Group>) -> 
 fn steps_do_not_allocate() {
     let (model, start) = paper();
     assert_eq!(
-        allocations(Variational::with_inertia(model.clone()), start.clone()),
-        0
-    );
-    assert_eq!(
         allocations(Variational::new(model.clone()), start.clone()),
         0
     );
-    assert_eq!(
-        allocations(Variational::new(OnSe3(model)), OnSe3::from_direct(&start)),
-        0
-    );
+    let by_duals = Variational::new(ByDuals(model.clone()));
+    assert_eq!(allocations(by_duals, start.clone()), 0);
+    assert_eq!(allocations(Variational::new(ValueOnly(model)), start), 0);
 }
 
 /// Steps of one size: another one makes another extrapolation, in the same storage.
 #[test]
 fn steps_of_high_order_do_not_allocate() {
     let (model, start) = paper();
-    let gauss = Gauss::<_, 4>::new(model.clone());
+    let gauss = Gauss::new::<4>(model.clone());
     assert_eq!(allocations(gauss, start.clone()), 0);
     let by_newton = measure(|| {
         let mut state = start.clone();
-        let mut integrator = Gauss::<_, 8>::new(model.clone());
+        let mut integrator = Gauss::new::<8>(model.clone());
         // So long that they take Newton's method; the first, refused, makes its storage.
         integrator.step(&mut state, 20.0).unwrap_err();
         let mut steps = |n: u32| {
@@ -56,7 +52,7 @@ fn steps_of_high_order_do_not_allocate() {
         assert_eq!(measure(|| steps(3)).count_total, 0);
     });
     assert!(by_newton.count_total > 0);
-    assert_eq!(allocations(Composition::<_, 4>::new(model), start), 0);
+    assert_eq!(allocations(Composition::new::<4>(model), start), 0);
 }
 
 /// In space and in a plane, with masses as matrices and as numbers, under gravity.

@@ -1,9 +1,9 @@
 //! The paper's scene, its motion by an independent method, and how far two states are apart.
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
-use dvi::{Integrator, State};
+use dvi::{Context, DiscreteLagrangian, Integrator, State, System};
 use lgvi::{articulated_fluid, dvi, lie};
-use lie::{LieGroup, SO3};
+use lie::{LieGroup, SO3, Scalar};
 use study::baseline::{self, Pair, Tolerance};
 use study::raw;
 
@@ -11,6 +11,27 @@ pub fn paper() -> (ArticulatedBody, State<Configuration>) {
     let text = include_str!("../../scenes/fish-chain.toml");
     let scene = Scene::parse(text, "fish-chain.toml").unwrap();
     (scene.model().unwrap(), scene.initial_state().unwrap())
+}
+
+/// (22) without its derivatives (29)–(33).
+pub struct ValueOnly(ArticulatedBody);
+
+impl System for ValueOnly {
+    type Group = Configuration;
+}
+
+impl DiscreteLagrangian for ValueOnly {
+    type Workspace<S: Scalar> = ();
+
+    fn value<S: Scalar>(
+        &self,
+        at: Context<S>,
+        g: &Configuration<S>,
+        f: &Configuration<S>,
+        h: S,
+    ) -> S {
+        DiscreteLagrangian::value(&self.0, at, g, f, h)
+    }
 }
 
 /// The paper's scene by an explicit method of order 8 at a tight tolerance.
@@ -29,8 +50,8 @@ pub fn attitude_error(a: &State<Configuration>, b: &State<Configuration>) -> f64
         let log = a.inverse().compose(b).log();
         log.unwrap_or_else(|e| e.representative).vec3().norm()
     };
-    let tails = a.g.2.iter().zip(b.g.2.iter()).map(|(a, b)| one(a, b));
-    tails.fold(one(&a.g.0, &b.g.0), f64::max)
+    let bodies = a.g.0.iter().zip(b.g.0.iter());
+    bodies.map(|(a, b)| one(a, b)).fold(0.0, f64::max)
 }
 
 /// Takes `steps` equal steps of an integrator over `until` seconds.

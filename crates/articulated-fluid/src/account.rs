@@ -4,8 +4,9 @@ use lie::Vec3;
 use serde::Serialize;
 
 use crate::planar::{NotPlanar, Plane, rounded};
-use crate::scene::SceneBody;
-use crate::{ArticulatedBody, Rerooted, Scene};
+use crate::scene::{Scene, SceneBody};
+use crate::tree::ArticulatedBody;
+use crate::views::Rerooted;
 
 /// What a model is made of; as a user reads it.
 #[derive(Clone, Debug, PartialEq, Serialize)]

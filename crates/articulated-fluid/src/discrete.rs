@@ -2,46 +2,36 @@
 
 use core::ops::Range;
 
-use dvi::{Derivatives, DiscreteLagrangian};
-use lie::{Mat3, Scalar, Vec3};
+use dvi::{Context, Derivatives, DiscreteLagrangian, State};
+use lie::{Ldl3, Mat3, SO3, Scalar, Vec3};
 use smallvec::SmallVec;
 
-use crate::elimination::{Attitudes, of, of_mut};
-use crate::{ArticulatedBody, Configuration};
-
-/// Bodies whose quantities fit on the stack.
-const FEW: usize = 8;
-
-/// A quantity of each body.
-pub(crate) type PerBody<T> = SmallVec<[T; FEW]>;
+use crate::inertia::Elimination;
+use crate::kinematics::PerBody;
+use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
 impl ArticulatedBody {
     /// (22), with the displacement of the first body $\Delta x$ in the reference frame and its position `x`.
     ///
     /// With $E = F - I$, $B_i$ of (28) and $\mathrm{tr}[(I - F) J_d] = -\mathrm{tr}[E J_d]$.
-    pub(crate) fn action<S: Scalar>(
-        &self,
-        (r, x): (Attitudes<S>, Vec3<S>),
-        (f, dx): (Attitudes<S>, Vec3<S>),
-        h: S,
-    ) -> S {
+    fn action<S: Scalar>(&self, (r, x): &Configuration<S>, (f, dx): &Configuration<S>, h: S) -> S {
         let mut sum = S::zero();
         let mut displacements: PerBody<Vec3<S>> = SmallVec::with_capacity(self.nodes.len());
         for (i, (node, mass)) in self.nodes.iter().zip(&self.masses).enumerate() {
             let b = match i {
-                0 => r.0.inverse_rotate(dx),
+                0 => r[0].inverse_rotate(dx[0].vec3()),
                 _ => {
-                    let turn = of(f, node.parent).displacement();
+                    let turn = f[node.parent].displacement();
                     let joint = displacements[node.parent] + turn.apply(node.at_parent.lift());
-                    of(r, i).inverse_rotate(of(r, node.parent).rotate(joint))
+                    r[i].inverse_rotate(r[node.parent].rotate(joint))
                 }
             };
-            let (e, mb) = (of(f, i).displacement(), mass.apply(b));
+            let (e, mb) = (f[i].displacement(), mass.apply(b));
             let turned = e.apply(node.at_self.lift());
             displacements.push(b - turned);
             sum += b.dot(mb).times(0.5) - mb.dot(turned) - e.trace_with(node.jd);
         }
-        sum / h - h * self.potential(r, x)
+        sum / h - h * self.loads.potential(r, x[0].vec3())
     }
 }
 
@@ -60,26 +50,46 @@ fn turn<S: Scalar>(moved: &Moved<S>) -> Mat3<S> {
     Mat3([moved[0].0, moved[1].0, moved[2].0])
 }
 
+/// Storage of the steps of a tree of bodies.
+#[derive(Clone, Debug)]
+pub struct StepWorkspace<S = f64> {
+    moved: Vec<Moved<S>>,
+    /// $\mathbb I(g_k)$, factorised once a step, and $R_0$ there.
+    inertia: Elimination<S>,
+    r0: SO3<S>,
+    /// $\sum_i R_i M_i R_i^T$, to solve (31) for $\Delta x$.
+    total_mass: Ldl3<S>,
+}
+
+impl<S: Scalar> Default for StepWorkspace<S> {
+    fn default() -> Self {
+        Self {
+            moved: Vec::new(),
+            inertia: Elimination::default(),
+            r0: SO3::identity(),
+            total_mass: Ldl3::identity(),
+        }
+    }
+}
+
 impl ArticulatedBody {
     /// The displacements that the turns alone make, $\Delta x = 0$, from the first body on.
     #[inline(always)]
-    pub(crate) fn displace<S: Scalar>(
+    fn displace<S: Scalar>(
         &self,
-        (r0, _, r): &Configuration<S>,
-        (f0, _, f): &Configuration<S>,
-        out: &mut Derivatives<Configuration, S>,
+        (r, _): &Configuration<S>,
+        (f, _): &Configuration<S>,
+        moved: &mut Vec<Moved<S>>,
     ) {
-        let (r, f) = ((r0, &r[..]), (f0, &f[..]));
-        out.scratch.resize(6 * self.nodes.len(), Vec3::zero());
-        let (moved, _) = out.scratch.as_chunks_mut();
+        moved.resize(self.nodes.len(), [Vec3::zero(); 6]);
         for (i, node) in self.nodes.iter().enumerate() {
-            let e = of(f, i).minus_identity();
+            let e = f[i].minus_identity();
             let b = match i {
                 0 => Vec3::zero(),
                 _ => {
                     let parent: &Moved<S> = &moved[node.parent];
                     let joint = parent[4] + turn(parent) * node.at_parent.lift();
-                    of(r, i).inverse_rotate(of(r, node.parent).rotate(joint))
+                    r[i].inverse_rotate(r[node.parent].rotate(joint))
                 }
             };
             let y = b - e * node.at_self.lift();
@@ -89,81 +99,74 @@ impl ArticulatedBody {
 
     /// $\sum_i R_i M_i Y_i$ of these displacements.
     #[inline(always)]
-    pub(crate) fn turning_momentum<S: Scalar>(
-        &self,
-        (r0, _, r): &Configuration<S>,
-        out: &Derivatives<Configuration, S>,
-    ) -> Vec3<S> {
-        let (moved, _): (&[Moved<S>], _) = out.scratch.as_chunks();
-        let bodies = self.masses.iter().zip(moved).enumerate();
-        bodies.fold(Vec3::zero(), |sum, (i, (mass, moved))| {
-            sum + of((r0, r), i).rotate(mass.apply(moved[4]))
+    fn turning_momentum<S: Scalar>(&self, r: &[SO3<S>], moved: &[Moved<S>]) -> Vec3<S> {
+        let bodies = self.masses.iter().zip(moved).zip(r);
+        bodies.fold(Vec3::zero(), |sum, ((mass, moved), r)| {
+            sum + r.rotate(mass.apply(moved[4]))
         })
     }
 
     /// (29)–(33) from the displacements, to which $\Delta x$ is added: momenta, back from the leaves.
     #[inline(always)]
-    pub(crate) fn collect<S: Scalar>(
+    fn collect<S: Scalar>(
         &self,
-        (r0, _, r): &Configuration<S>,
-        (f0, dx, f): &Configuration<S>,
+        (r, _): &Configuration<S>,
+        (f, dx): &Configuration<S>,
         h: S,
+        moved: &mut [Moved<S>],
         out: &mut Derivatives<Configuration, S>,
     ) {
-        let (inverse_h, r, f) = (S::one() / h, (r0, &r[..]), (f0, &f[..]));
-        let Derivatives {
-            d_f, d_g, scratch, ..
-        } = out;
-        let (moved, _) = scratch.as_chunks_mut();
-        (d_f.0, d_g.0) = (Vec3::zero().into(), Vec3::zero().into());
-        d_f.2.fill(Vec3::zero().into());
-        d_g.2.fill(Vec3::zero().into());
+        let (inverse_h, dx) = (S::one() / h, dx[0].vec3());
+        let Derivatives { d_f, d_g, .. } = out;
+        d_f.0.fill(Vec3::zero().into());
+        d_g.0.fill(Vec3::zero().into());
         for (i, node) in self.nodes.iter().enumerate().rev() {
             let (e, [.., b, y, carried]) = (turn(&moved[i]), moved[i]);
-            let shift = of(r, i).inverse_rotate(dx.vec3());
+            let shift = r[i].inverse_rotate(dx);
             let (b, y) = (b + shift, y + shift);
             let (mb, my) = (self.masses[i].apply(b), self.masses[i].apply(y));
             let joint = node
                 .at_self
                 .lift::<S>()
-                .cross(of(f, i).inverse_rotate(mb + carried));
+                .cross(f[i].inverse_rotate(mb + carried));
             let turned = rotation_momentum(node.jd, &e) - joint;
-            let slot = of_mut((&mut d_f.0, &mut d_f.2), i);
+            let slot = &mut d_f.0[i];
             *slot = ((slot.vec3() + turned) * inverse_h).into();
-            let slot = of_mut((&mut d_g.0, &mut d_g.2), i);
-            let mut pulled = (slot.vec3() + my.cross(b)) * inverse_h;
-            if let Some(weight) = &self.weight {
-                pulled += weight.torque(i, of(r, i)) * h;
-            }
-            *slot = pulled.into();
-            let on_joint = of(r, i).rotate(my + carried);
+            let slot = &mut d_g.0[i];
+            *slot = ((slot.vec3() + my.cross(b)) * inverse_h).into();
+            let on_joint = r[i].rotate(my + carried);
             if i == 0 {
-                d_f.1 = (on_joint * inverse_h).into();
+                d_f.1[0] = (on_joint * inverse_h).into();
                 continue;
             }
-            let on_parent = of(r, node.parent).inverse_rotate(on_joint);
+            let on_parent = r[node.parent].inverse_rotate(on_joint);
             let parent: &mut Moved<S> = &mut moved[node.parent];
             parent[5] += on_parent;
-            let slot = of_mut((&mut d_f.0, &mut d_f.2), node.parent);
-            let pushed = of(f, node.parent).inverse_rotate(on_parent);
+            let slot = &mut d_f.0[node.parent];
+            let pushed = f[node.parent].inverse_rotate(on_parent);
             *slot = (slot.vec3() + node.at_parent.lift::<S>().cross(pushed)).into();
-            let slot = of_mut((&mut d_g.0, &mut d_g.2), node.parent);
+            let slot = &mut d_g.0[node.parent];
             let swept = turn(parent) * node.lever.lift();
             *slot = (slot.vec3() + swept.cross(on_parent)).into();
         }
-        if let Some(springs) = &self.springs {
-            springs.add_torques(r, h, (&mut d_g.0, &mut d_g.2));
-        }
-        let falling = self.weight.as_ref().map(|weight| weight.force::<S>() * h);
-        d_g.1 = falling.unwrap_or(Vec3::zero()).into();
+        self.loads.add_torques(r, h, &mut d_g.0);
+        let falling = self.loads.force().map(|force| force * h);
+        d_g.1[0] = falling.unwrap_or(Vec3::zero()).into();
     }
 }
 
 impl DiscreteLagrangian for ArticulatedBody {
-    type Group = Configuration;
+    type Workspace<S: Scalar> = StepWorkspace<S>;
+    const HAS_INERTIA: bool = true;
 
-    fn value<S: Scalar>(&self, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {
-        self.action(((&g.0, &g.2), g.1.vec3()), ((&f.0, &f.2), f.1.vec3()), h)
+    fn value<S: Scalar>(
+        &self,
+        _: Context<S>,
+        g: &Configuration<S>,
+        f: &Configuration<S>,
+        h: S,
+    ) -> S {
+        self.action(g, f, h)
     }
 
     /// (29)–(33) by recursion: displacements from the first body on, momenta back from the leaves.
@@ -173,26 +176,61 @@ impl DiscreteLagrangian for ArticulatedBody {
     #[inline(always)]
     fn derivatives<S: Scalar>(
         &self,
-        _t: S,
+        _: Context<S>,
         g: &Configuration<S>,
         f: &Configuration<S>,
         h: S,
+        work: &mut StepWorkspace<S>,
         out: &mut Derivatives<Configuration, S>,
     ) {
-        self.displace(g, f, out);
-        self.collect(g, f, h, out);
+        self.displace(g, f, &mut work.moved);
+        self.collect(g, f, h, &mut work.moved, out);
     }
 
-    /// The displacement $\Delta x$ of the first body, but under a weight: (31) is linear in it, and $x$ enters nowhere.
-    fn cyclic(&self) -> Range<usize> {
-        self.free_translation()
-    }
-
-    fn fits(&self, g: &Configuration) -> bool {
-        g.2.len() + 1 == self.nodes.len()
-    }
-
-    fn is_defined(&self, _t: f64, _g: &Configuration) -> bool {
+    fn is_defined(&self, _: f64, _: &Configuration) -> bool {
         true
+    }
+
+    #[inline(always)]
+    fn factorise(&self, (r, _): &Configuration, work: &mut StepWorkspace) {
+        work.r0 = r[0];
+        work.inertia.factorise(self, r);
+        work.total_mass = self.total_mass(r).ldl();
+    }
+
+    #[inline(always)]
+    fn solve(&self, work: &mut StepWorkspace, mu: &Momentum, xi: &mut Velocity) {
+        work.inertia.begin(self, &work.r0, mu);
+        work.inertia.finish(self, &work.r0, xi);
+    }
+
+    fn solve_cyclic(&self, work: &mut StepWorkspace, mu: &Momentum, xi: &mut Velocity) {
+        xi.0.fill(Vec3::zero().into());
+        xi.1[0] = work.total_mass.solve(mu.1[0].vec3()).into();
+    }
+
+    /// The displacement $\Delta x$, under a weight too: its impulse is constant.
+    fn eliminated(&self) -> Range<usize> {
+        self.translation()
+    }
+
+    /// (31) $= p_x$, and the impulse of the weight with it, solved for $\Delta x$.
+    #[inline(always)]
+    fn eliminate(
+        &self,
+        work: &mut StepWorkspace,
+        (State { g, mu, .. }, h): (&State<Configuration>, f64),
+        f: &mut Configuration,
+        c: &mut Velocity,
+        out: &mut Derivatives<Configuration, f64>,
+    ) {
+        self.displace(g, f, &mut work.moved);
+        let mut rest = mu.1[0].vec3() * h - self.turning_momentum(&g.0, &work.moved);
+        if let Some(force) = self.loads.force::<f64>() {
+            rest += force * (h * h);
+        }
+        let solved = work.total_mass.solve(rest);
+        (f.1[0], c.1[0]) = (solved.into(), solved.into());
+        self.collect(g, f, h, &mut work.moved, out);
     }
 }

@@ -84,11 +84,11 @@ pub enum ModelError {
         quantity: &'static str,
     },
     /// The state has another number of bodies than the model.
-    #[error("the state has {found} bodies beside the first, the model {expected}")]
+    #[error("the state has {found} bodies, the model {expected}")]
     Shape {
-        /// Joints of the model.
+        /// Bodies of the model.
         expected: usize,
-        /// Bodies of the state beside the first.
+        /// Bodies of the state.
         found: usize,
     },
 }

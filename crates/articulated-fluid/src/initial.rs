@@ -1,11 +1,13 @@
 //! From a scene to a model and its initial state.
 
 use dvi::State;
-use lie::{Cotangent, LieGroup, Mat3, Rn, SO3, Tangent, Vec3, VectorSpace};
+use lie::{Cotangent, LieGroup, Mat3, Power, Rn, SO3, Tangent, Vec3, VectorSpace};
 
-use crate::elimination::Velocity;
-use crate::scene::{SceneBody, SceneJoint, StartVelocity};
-use crate::{ArticulatedBody, Body, Configuration, Joint, ModelError, Rerooted, Scene};
+use crate::error::ModelError;
+use crate::node::{Body, Joint};
+use crate::scene::{Scene, SceneBody, SceneJoint, StartVelocity};
+use crate::tree::{ArticulatedBody, Configuration, Velocity};
+use crate::views::Rerooted;
 
 impl Scene {
     /// The model of this scene.
@@ -61,9 +63,9 @@ impl Scene {
         root: Option<&Rerooted>,
         velocity: StartVelocity,
     ) -> Result<State<Configuration>, ModelError> {
-        let (mut g, mut xi) = (self.configuration()?, self.rates()?);
+        let (mut g, mut xi) = (self.configuration(), self.rates());
         if let StartVelocity::Given(velocity) = velocity {
-            xi.1 = Tangent(velocity);
+            xi.1[0] = Tangent(velocity);
         }
         if let Some(root) = root {
             (g, xi) = root.motion(&g, &xi);
@@ -72,43 +74,38 @@ impl Scene {
         if floats {
             stop(model, &g, &mut xi);
         }
-        require(xi.1.vec3().is_finite(), "velocity")?;
+        require(xi.1[0].vec3().is_finite(), "velocity")?;
         let mut mu = model.momenta(&g, &xi);
         if floats {
             // The velocity is rounded, and the momentum is not.
-            mu.1 = Cotangent::zero();
+            mu.1[0] = Cotangent::zero();
         }
         require(g.is_finite(), "configuration")?;
         require(mu.max_magnitude().is_finite(), "momentum")?;
         Ok(State { t: 0.0, g, mu })
     }
 
-    fn configuration(&self) -> Result<Configuration, ModelError> {
+    fn configuration(&self) -> Configuration {
         let attitude = |body: &SceneBody| SO3::from_quaternion(body.attitude);
-        let (head, tails) = self.bodies.split_first().ok_or(ModelError::NoBody)?;
-        let tails = tails.iter().map(attitude).collect();
-        Ok((attitude(head), Rn(self.position), tails))
+        let attitudes = self.bodies.iter().map(attitude).collect();
+        (attitudes, Power::new(vec![Rn(self.position)]))
     }
 
     /// The angular velocities.
-    fn rates(&self) -> Result<Velocity, ModelError> {
+    fn rates(&self) -> Velocity {
         let rate = |body: &SceneBody| Tangent(body.angular_velocity);
-        let (head, tails) = self.bodies.split_first().ok_or(ModelError::NoBody)?;
-        Ok((
-            rate(head),
-            Tangent::zero(),
-            tails.iter().map(rate).collect(),
-        ))
+        let rates = self.bodies.iter().map(rate).collect();
+        (rates, Power::new(vec![Tangent::zero()]))
     }
 }
 
 /// Sets the velocity to the one of no linear momentum.
 fn stop(model: &ArticulatedBody, g: &Configuration, xi: &mut Velocity) {
-    let total = model.total_mass((&g.0, &g.2)).ldl();
+    let total = model.total_mass(&g.0).ldl();
     // The second time for the rounding of the first.
     for _ in 0..2 {
-        let linear = model.momenta(g, xi).1.vec3();
-        xi.1 = Tangent((xi.1.vec3() - total.solve(linear)).0);
+        let linear = model.momenta(g, xi).1[0].vec3();
+        xi.1[0] = Tangent((xi.1[0].vec3() - total.solve(linear)).0);
     }
 }
 

@@ -11,7 +11,7 @@
 //! let scene = Scene::parse(articulated_fluid::scene::EXAMPLE, "example.toml")?;
 //! let (model, mut state) = (scene.model()?, scene.initial_state()?);
 //! let start = model.conserved(&state)?;
-//! let mut integrator = Variational::with_inertia(model.clone());
+//! let mut integrator = Variational::new(model.clone());
 //! for _ in 0..1000 {
 //!     integrator.step(&mut state, 1e-3)?;
 //! }
@@ -24,7 +24,7 @@
 //! |---|---|
 //! | (1)–(3), (6): velocities, kinetic energy | [`Lagrangian::value`](dvi::Lagrangian::value) of [`ArticulatedBody`] |
 //! | (5): added inertia of an ellipsoid | [`Ellipsoid`] |
-//! | (4), (10): inertia, Legendre transform | [`Lagrangian::legendre`](dvi::Lagrangian::legendre), [`Inertia`](dvi::Inertia) by [`Elimination`] |
+//! | (4), (10): inertia, Legendre transform | [`Lagrangian::legendre`](dvi::Lagrangian::legendre), [`Elimination`] |
 //! | (11)–(13), (18)–(20): forces, Hamilton's equations | [`ContinuousSystem`](dvi::ContinuousSystem) of [`ArticulatedBody`] |
 //! | (21): displacement | [`Configuration`] as $f$ |
 //! | (22): discrete Lagrangian | [`DiscreteLagrangian::value`](dvi::DiscreteLagrangian::value) |
@@ -36,7 +36,7 @@
 //! (22) are taken at the left end alone, so the method is of order 1, not a trapezoidal rule; the joints of the tails in
 //! Sec. V have the opposite sign; and the density there is $1/(32 \pi)$ kg/m³.
 //!
-//! [`OnSe3`] is the same discrete Lagrangian on $SE(3) \times SO(3)^n$. [`scene`] reads scenes from files.
+//! [`scene`] reads scenes from files.
 //!
 //! # Views of a scene
 //! [`Scene::smallest`] leaves out only what is exactly nothing. It steps a scene in other coordinates where these are better, by a
@@ -49,35 +49,33 @@
 //! [`Viewed`] steps the states in space, exactly in the plane and at little more than half the cost.
 
 mod account;
-mod comoving;
 mod conserved;
-mod continuous;
 mod discrete;
-mod elimination;
 pub mod ellipsoid;
 mod error;
 #[doc = include_str!("formulas.md")]
 pub mod formulas {}
+mod inertia;
 mod initial;
-mod model;
+mod joints;
+mod kinematics;
+mod lagrangian;
+mod loads;
+mod node;
 pub mod planar;
-mod rerooted;
 pub mod scene;
-mod semidirect;
 mod smallest;
-mod springs;
-mod view;
-mod weight;
+mod tree;
+mod views;
 
 pub use account::{Account, Reduction};
-pub use comoving::{Comoving, Drift};
 pub use conserved::Conserved;
-pub use elimination::{Elimination, Factor};
+pub use discrete::StepWorkspace;
 pub use ellipsoid::{Ellipsoid, EllipsoidError};
 pub use error::ModelError;
-pub use model::{ArticulatedBody, Body, Configuration, Joint};
-pub use rerooted::Rerooted;
+pub use inertia::Elimination;
+pub use node::{Body, Joint};
 pub use scene::{Scene, SceneError};
-pub use semidirect::{OnSe3, SemidirectConfiguration};
 pub use smallest::Smallest;
-pub use view::{View, Viewed};
+pub use tree::{ArticulatedBody, Configuration};
+pub use views::{Comoving, Drift, Rerooted, View, Viewed};

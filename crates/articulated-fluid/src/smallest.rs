@@ -1,13 +1,14 @@
 //! The smallest model that describes a scene exactly, and the integrators that step it.
 
 use dvi::{Integrator, State};
-use lie::{LieGroup, Vec3};
+use lie::{R3, Vec3};
 
 use crate::account::{Account, Found};
+use crate::error::ModelError;
 use crate::planar::{PlanarBody, PlanarConfiguration, Plane};
-use crate::scene::StartVelocity;
-use crate::view::Viewed;
-use crate::{ArticulatedBody, Comoving, Configuration, ModelError, Rerooted, Scene};
+use crate::scene::{Scene, StartVelocity};
+use crate::tree::{ArticulatedBody, Configuration};
+use crate::views::{Comoving, Rerooted, Viewed};
 
 /// An integrator chosen at run time.
 type Boxed<G> = Box<dyn Integrator<Group = G> + Send>;
@@ -40,8 +41,8 @@ impl Smallest {
     ///
     /// let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
     /// let mut integrator = scene.smallest()?.integrator(
-    ///     |model| Box::new(Gauss::<_, 4>::new(model)),
-    ///     |model| Box::new(Gauss::<_, 4>::new(model)),
+    ///     |model| Box::new(Gauss::new::<4>(model)),
+    ///     |model| Box::new(Gauss::new::<4>(model)),
     /// );
     /// integrator.step(&mut scene.initial_state()?, 0.05)?;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -88,7 +89,7 @@ impl Scene {
     ///     angular_velocity = [1, 2, 0]
     /// ";
     /// let smallest = Scene::parse(text, "stone.toml")?.smallest()?;
-    /// assert_eq!(smallest.start.mu.1.0, [0.0; 3]);
+    /// assert_eq!(smallest.start.mu.1[0].0, [0.0; 3]);
     /// let taken: Vec<_> = smallest.account.taken().collect();
     /// assert_eq!(taken, ["translation", "joints", "weight", "drift"]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -109,7 +110,7 @@ impl Scene {
         if let Some(view) = &drift {
             // Of the velocities alone, so that the drift changes no digit of it.
             start = self.start(&model, root.as_ref(), StartVelocity::ZeroMomentum)?;
-            start.g.1 = LieGroup::identity_like(&start.g.1);
+            start.g.1[0] = R3::identity();
             model = view.model();
         }
         let plane = Plane::find(&model, &start);
@@ -132,5 +133,5 @@ impl Scene {
 
 /// Whether the mass centre moves, or will.
 fn moves(model: &ArticulatedBody, state: &State<Configuration>) -> bool {
-    [state.mu.1.vec3(), model.net_weight()] != [Vec3::zero(); 2]
+    [state.mu.1[0].vec3(), model.net_weight()] != [Vec3::zero(); 2]
 }

@@ -1,97 +1,11 @@
 //! Symmetric composition: higher order from a discrete Lagrangian and its adjoint.
 
-use core::ops::Range;
-
-use lie::{LieGroup, Over, Scalar, VectorSpace};
+use lie::{LieGroup, VectorSpace};
 
 use crate::{
-    Derivatives, DiscreteLagrangian, FirstVariation, Integrator, State, StepError, StepReport,
+    Adjoint, DiscreteLagrangian, FirstVariation, Integrator, State, StepError, StepReport,
     Variation, Variational,
 };
-
-/// The adjoint of a discrete Lagrangian, $L_d^\ast(t, g, f, h) = -L_d(t + h, g f, f^{-1}, -h)$.
-///
-/// Its step of $h$ is the inverse of the other's step of $-h$; what looked at the start of the step looks at its end.
-///
-/// ```
-/// use dvi::{Adjoint, DiscreteLagrangian, Lagrangian, LeftPoint, RightPoint};
-/// use lie::{Rn, Scalar, Tangent};
-///
-/// /// A particle of 1 kg on a spring of 1 N/m.
-/// #[derive(Clone, Copy)]
-/// struct Spring;
-///
-/// impl Lagrangian for Spring {
-///     type Group = Rn<1>;
-///     fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
-///         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
-///     }
-/// }
-///
-/// let (x, f) = (Rn([1.0]), Rn([0.25]));
-/// let adjoint = Adjoint(Spring.discretise::<LeftPoint>()).value(&x, &f, 0.5);
-/// assert_eq!(adjoint, Spring.discretise::<RightPoint>().value(&x, &f, 0.5));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Adjoint<L>(pub L);
-
-impl<L: DiscreteLagrangian> DiscreteLagrangian for Adjoint<L> {
-    type Group = L::Group;
-
-    fn value<S: Scalar>(&self, g: &Over<L::Group, S>, f: &Over<L::Group, S>, h: S) -> S {
-        self.value_at(S::zero(), g, f, h)
-    }
-
-    fn value_at<S: Scalar>(&self, t: S, g: &Over<L::Group, S>, f: &Over<L::Group, S>, h: S) -> S {
-        -self.0.value_at(t + h, &g.compose(f), &f.inverse(), -h)
-    }
-
-    /// With $d_f$, $d_g$ of the other at its own arguments: $d_f^\ast = \mathrm{Ad}^\ast_f d_f - d_g$ and $d_g^\ast = -\mathrm{Ad}^\ast_{f^{-1}} d_g$.
-    fn derivatives<S: Scalar>(
-        &self,
-        t: S,
-        g: &Over<L::Group, S>,
-        f: &Over<L::Group, S>,
-        h: S,
-        out: &mut Derivatives<L::Group, S>,
-    ) {
-        let mut ends = out.take_ends(g);
-        g.compose_into(f, &mut ends.end);
-        f.inverse_into(&mut ends.back);
-        self.0.derivatives(t + h, &ends.end, &ends.back, -h, out);
-        f.coadjoint_into(&out.d_f, &mut ends.momentum);
-        ends.momentum.add_scaled(-S::one(), &out.d_g);
-        core::mem::swap(&mut out.d_f, &mut ends.momentum);
-        f.inverse_coadjoint_into(&out.d_g, &mut ends.momentum);
-        core::mem::swap(&mut out.d_g, &mut ends.momentum);
-        out.d_g.scale(-S::one());
-        out.give_ends(ends);
-    }
-
-    fn cyclic(&self) -> Range<usize> {
-        self.0.cyclic()
-    }
-
-    fn fits(&self, g: &L::Group) -> bool {
-        self.0.fits(g)
-    }
-
-    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        self.0.is_defined(t, g)
-    }
-
-    fn order(&self) -> u32 {
-        self.0.order()
-    }
-
-    fn is_symmetric(&self) -> bool {
-        self.0.is_symmetric()
-    }
-
-    fn is_symplectic(&self) -> bool {
-        self.0.is_symplectic()
-    }
-}
 
 /// Suzuki's five equal-sized steps, $\gamma = 1/(4 - 4^{1/3})$ (M. Suzuki, Phys. Lett. A 146, 1990).
 const FOURTH: [f64; 5] = [
@@ -125,35 +39,39 @@ const EIGHTH: [f64; 9] = [
     0.130_202_483_088_890_07,
 ];
 
-/// A symmetric composition of order `P` = 2, 4, 6 or 8 of the steps of a discrete Lagrangian and its [adjoint](Adjoint).
+/// A symmetric composition of order 2, 4, 6 or 8 of the steps of a discrete Lagrangian and its [adjoint](Adjoint).
 ///
 /// Each of its 1, 5, 9 or 17 parts, $\gamma_j h$ long, is half a step of the one and half a step of the other; of a symmetric discrete
 /// Lagrangian, one step of that. Some $\gamma_j$ are negative: time goes back and forth.
 ///
 /// ```
-/// use dvi::{Composition, Integrator, Lagrangian, LeftPoint};
+/// use dvi::{Composition, Context, Integrator, Lagrangian, Quadrature, System};
 /// use lie::{Rn, Scalar, Tangent};
 ///
 /// /// A particle of 1 kg on a spring of 1 N/m.
 /// #[derive(Clone, Copy)]
 /// struct Spring;
 ///
-/// impl Lagrangian for Spring {
+/// impl System for Spring {
 ///     type Group = Rn<1>;
-///     fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+/// }
+///
+/// impl Lagrangian for Spring {
+///     fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
 ///         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
 ///     }
 /// }
 ///
 /// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
-/// let mut integrator = Composition::<_, 6>::new(Spring.discretise::<LeftPoint>());
+/// let mut integrator = Composition::new::<6>(Spring.discretise(Quadrature::LeftPoint));
 /// for _ in 0..10 {
 ///     integrator.step(&mut state, 0.5)?;
 /// }
 /// assert!((state.g.0[0] - 5.0_f64.cos()).abs() < 1e-4);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
-pub struct Composition<L: DiscreteLagrangian, const P: u32> {
+pub struct Composition<L: DiscreteLagrangian> {
+    order: u32,
     parts: Vec<Part<L>>,
     steps: u64,
     before: Option<State<L::Group>>,
@@ -168,21 +86,30 @@ struct Part<L: DiscreteLagrangian> {
     adjoint: Option<Variational<Adjoint<L>>>,
 }
 
-impl<L: DiscreteLagrangian + Clone, const P: u32> Composition<L, P> {
-    /// The composition of a discrete Lagrangian's steps.
-    pub fn new(lagrangian: L) -> Self {
+impl<L: DiscreteLagrangian + Clone> Composition<L> {
+    /// The composition of order `P`; another than 2, 4, 6 or 8 does not compile.
+    pub fn new<const P: u32>(lagrangian: L) -> Self {
         const {
             assert!(
                 P == 2 || P == 4 || P == 6 || P == 8,
                 "the order is 2, 4, 6 or 8"
             )
         };
+        Self::of(lagrangian, P)
+    }
+
+    /// The composition of an order that is known at run time; none of another than 2, 4, 6 or 8.
+    pub fn with_order(lagrangian: L, order: u32) -> Option<Self> {
+        matches!(order, 2 | 4 | 6 | 8).then(|| Self::of(lagrangian, order))
+    }
+
+    fn of(lagrangian: L, order: u32) -> Self {
         let mirrored = |half: &[f64]| {
             let out = half.iter().skip(1);
             let ends = out.clone().rev().chain(&half[..1]).chain(out);
             ends.copied().collect()
         };
-        let lengths = match P {
+        let lengths = match order {
             2 => vec![1.0],
             4 => FOURTH.to_vec(),
             6 => mirrored(&SIXTH),
@@ -195,6 +122,7 @@ impl<L: DiscreteLagrangian + Clone, const P: u32> Composition<L, P> {
             adjoint: (!lagrangian.is_symmetric()).then(adjoint),
         };
         Self {
+            order,
             parts: lengths.into_iter().map(part).collect(),
             steps: 0,
             before: None,
@@ -202,7 +130,7 @@ impl<L: DiscreteLagrangian + Clone, const P: u32> Composition<L, P> {
     }
 }
 
-impl<L: DiscreteLagrangian, const P: u32> Composition<L, P> {
+impl<L: DiscreteLagrangian> Composition<L> {
     /// The largest residual of the solved parts, as [`Variational::with_tolerance`].
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         let with = |part: Part<L>| Part {
@@ -210,6 +138,17 @@ impl<L: DiscreteLagrangian, const P: u32> Composition<L, P> {
             adjoint: part
                 .adjoint
                 .map(|adjoint| adjoint.with_tolerance(tolerance)),
+            ..part
+        };
+        self.parts = self.parts.into_iter().map(with).collect();
+        self
+    }
+
+    /// The same with all coordinates among the unknowns, as [`Variational::with_all_unknowns`].
+    pub fn with_all_unknowns(mut self) -> Self {
+        let with = |part: Part<L>| Part {
+            method: part.method.with_all_unknowns(),
+            adjoint: part.adjoint.map(Variational::with_all_unknowns),
             ..part
         };
         self.parts = self.parts.into_iter().map(with).collect();
@@ -265,11 +204,11 @@ enum Half<'a, L: DiscreteLagrangian> {
     Adjoint(&'a mut Variational<Adjoint<L>>),
 }
 
-impl<L: DiscreteLagrangian, const P: u32> Integrator for Composition<L, P> {
+impl<L: DiscreteLagrangian> Integrator for Composition<L> {
     type Group = L::Group;
 
     fn order(&self) -> u32 {
-        P
+        self.order
     }
 
     fn is_symmetric(&self) -> bool {
@@ -310,7 +249,7 @@ impl<L: DiscreteLagrangian, const P: u32> Integrator for Composition<L, P> {
     }
 }
 
-impl<L: DiscreteLagrangian, const P: u32> FirstVariation for Composition<L, P> {
+impl<L: DiscreteLagrangian> FirstVariation for Composition<L> {
     fn step_varied(
         &mut self,
         state: &mut State<L::Group>,

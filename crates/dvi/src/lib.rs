@@ -36,14 +36,13 @@
 //!
 //! Rounding is measured, not guessed: where an iteration no longer gains, the arguments are moved in their last places, and what that
 //! changes is what rounding may leave. The state after a step is in the domain of the Lagrangian, or the step is refused with
-//! [`StepError::NotFinite`]. Where the kinetic energy has no inertia in some direction, every integrator says
-//! [`StepError::Degenerate`] and names it; Lagrangians that are linear in a velocity are not supported.
+//! [`Cause::NotFinite`]. Where the kinetic energy has no inertia in some direction, every integrator says
+//! [`Cause::Degenerate`] and names it; Lagrangians that are linear in a velocity are not supported.
 //!
 //! # How a step is solved
-//! For [`Gauss`] see there. Of a discrete Lagrangian, the unknown is $c$ with $f_k = \tau(c)$, $\tau$ the Cayley map or the exponential. The balance of momenta is brought below
-//! a tolerance, starting from an extrapolation of the steps before, by one of two iterations:
-//! [`Variational::new`] takes Newton's matrix from dual numbers and keeps it until convergence slows;
-//! [`Variational::with_inertia`] takes the inertia of a model that solves it fast ([`Inertia`]).
+//! For [`Gauss`] see there. Of a discrete Lagrangian, the unknown is $c$ with $f_k = \tau(c)$, $\tau$ the Cayley map. The balance of momenta is brought below
+//! a tolerance, starting from an extrapolation of the steps before. The matrix of the iteration is the inertia of a model that
+//! [solves it fast](DiscreteLagrangian::HAS_INERTIA); else Newton's, from dual numbers, is kept until convergence slows.
 //!
 //! The balance of a long step has many roots, and the motion's is the one that grows from no displacement at $h = 0$. There the balance's
 //! matrix is the inertia; where the motion's root ends it meets another and the matrix is singular, so that beyond, a pivot has another sign. A root with
@@ -54,53 +53,25 @@
 //! The new momentum is the coadjoint transport of the old one, not a difference quotient: so momentum maps hold to rounding
 //! even at a loose tolerance, and say nothing about whether the step was solved. The [`StepReport`]'s residual does.
 
-mod balance;
 mod composition;
-mod continuous;
-mod degenerate;
-mod discrete;
-mod elimination;
-mod error;
-mod force;
 mod gauss;
-mod hamiltonian;
-mod inertia;
-mod integrator;
-mod jets;
-mod lagrangian;
 pub mod laws;
-mod legendre;
-mod linear;
-mod newton;
-mod numbers;
+mod numerics;
 mod pilot;
-mod quadrature;
-mod shape;
-mod sizes;
-mod solver;
-mod state;
-mod symmetry;
+mod step;
+mod system;
 mod variation;
 mod variational;
-mod warm_start;
 
-pub use composition::{Adjoint, Composition};
-pub use continuous::ContinuousSystem;
-pub use discrete::{Derivatives, DiscreteLagrangian};
-pub use error::{Hint, StepError};
-pub use force::{DiscreteForce, Force, Forced};
+pub use composition::Composition;
 pub use gauss::Gauss;
-pub use hamiltonian::{HamiltonianSystem, LegendreWorkspace};
-pub use inertia::{FrozenInertia, Inertia};
-pub use integrator::{Integrator, StepReport};
-pub use lagrangian::Lagrangian;
-pub use legendre::{legendre_minus, legendre_plus};
-pub use newton::Newton;
 pub use pilot::{Pilot, PilotError};
-pub use quadrature::{Discretised, LeftPoint, Midpoint, Place, Quadrature, RightPoint, Trapezoid};
-pub use shape::ShapeError;
-pub use solver::StepSolver;
-pub use state::{Pair, State};
-pub use symmetry::{LeftTranslation, RightTranslation, Symmetry, momentum_map};
+pub use step::{Cause, Hint, Integrator, StepError, StepReport};
+pub use system::{
+    Adjoint, AdjointWorkspace, Context, ContinuousSystem, Derivatives, DiscreteForce,
+    DiscreteLagrangian, Discretised, Force, Forced, ForcedWorkspace, HamiltonianSystem, Lagrangian,
+    LeftTranslation, LegendreWorkspace, Pair, Quadrature, RightTranslation, ShapeError, State,
+    Symmetry, System, legendre_minus, legendre_plus, momentum_map,
+};
 pub use variation::{FirstVariation, Variation, symplectic_form};
 pub use variational::Variational;

@@ -3,7 +3,7 @@
 use lie::VectorSpace;
 use thiserror::Error;
 
-use crate::numbers::larger;
+use crate::numerics::numbers::larger;
 use crate::{ContinuousSystem, Gauss, Integrator, State, StepError};
 
 /// Times at which runs are compared.
@@ -26,16 +26,19 @@ const BISECTIONS: u32 = 4;
 /// The step is fixed: one that follows the motion would give up the symplectic form and with it the bounded energy error.
 ///
 /// ```
-/// use dvi::{Lagrangian, Pilot};
+/// use dvi::{Context, Lagrangian, Pilot, System};
 /// use lie::{Rn, Scalar, Tangent};
 ///
 /// /// A particle of 1 kg on a spring of 1 N/m.
 /// #[derive(Clone)]
 /// struct Spring;
 ///
-/// impl Lagrangian for Spring {
+/// impl System for Spring {
 ///     type Group = Rn<1>;
-///     fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+/// }
+///
+/// impl Lagrangian for Spring {
+///     fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
 ///         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
 ///     }
 /// }
@@ -155,20 +158,7 @@ impl Pilot {
         &self,
         system: C,
     ) -> Box<dyn Integrator<Group = C::Group> + Send> {
-        gauss(self.stages, system, self.tolerance)
-    }
-}
-
-/// [`Gauss`] with a number of stages that is known at run time.
-fn gauss<C: ContinuousSystem + Send + 'static>(
-    stages: usize,
-    system: C,
-    tolerance: f64,
-) -> Box<dyn Integrator<Group = C::Group> + Send> {
-    match stages {
-        ..=4 => Box::new(Gauss::<_, 4>::new(system).with_tolerance(tolerance)),
-        5 | 6 => Box::new(Gauss::<_, 6>::new(system).with_tolerance(tolerance)),
-        _ => Box::new(Gauss::<_, 8>::new(system).with_tolerance(tolerance)),
+        Box::new(Gauss::of(system, self.stages.clamp(1, 8)).with_tolerance(self.tolerance))
     }
 }
 
@@ -201,7 +191,7 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
         loop {
             let horizon = duration.min(LONGEST * h);
             let steps = (horizon / (SAMPLES as f64 * h)).round() as usize;
-            match self.samples::<8>(steps, horizon / SAMPLES as f64, 0.0) {
+            match self.samples(8, steps, horizon / SAMPLES as f64, 0.0) {
                 Ok(_) => return Ok((steps, horizon)),
                 Err(source) if h < 1e-9 * duration => {
                     return Err(PilotError::Unsolved { h, source });
@@ -217,7 +207,7 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
         let mut last: Option<Vec<State<C::Group>>> = None;
         let mut worse = 0;
         while steps * SAMPLES <= FINEST && worse < 3 {
-            let run = self.samples::<8>(steps, horizon / SAMPLES as f64, 0.0);
+            let run = self.samples(8, steps, horizon / SAMPLES as f64, 0.0);
             let run = run.ok().map(|(states, _)| states);
             if let (Some(last), Some(run)) = (&last, &run) {
                 let apart = difference(last, run);
@@ -240,7 +230,7 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
     /// The loosest tolerance that leaves the reference's run as it is, zero where only its own does.
     fn tolerance(&self, (fine, horizon): (usize, f64), reference: &[State<C::Group>]) -> f64 {
         let does = |tolerance: &f64| {
-            let run = self.samples::<8>(fine, horizon / SAMPLES as f64, *tolerance);
+            let run = self.samples(8, fine, horizon / SAMPLES as f64, *tolerance);
             run.is_ok_and(|(run, _)| difference(&run, reference) <= PARTS[0] * self.accuracy)
         };
         let tolerances = TOLERANCES.map(|part| part * self.accuracy);
@@ -256,12 +246,7 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
         reference: &[State<C::Group>],
     ) -> Option<Trial> {
         let attempt = |steps: usize| {
-            let interval = horizon / SAMPLES as f64;
-            let run = match stages {
-                4 => self.samples::<4>(steps, interval, tolerance),
-                6 => self.samples::<6>(steps, interval, tolerance),
-                _ => self.samples::<8>(steps, interval, tolerance),
-            };
+            let run = self.samples(stages, steps, horizon / SAMPLES as f64, tolerance);
             let (states, sweeps) = run.ok()?;
             let error = difference(&states, reference);
             let enough = error <= PARTS[1] * self.accuracy;
@@ -307,13 +292,14 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
         found
     }
 
-    fn samples<const S: usize>(
+    fn samples(
         &self,
+        stages: usize,
         steps: usize,
         interval: f64,
         tolerance: f64,
     ) -> Result<Samples<C::Group>, StepError> {
-        let mut integrator = Gauss::<_, S>::new(self.system.clone())
+        let mut integrator = Gauss::of(self.system.clone(), stages)
             .with_tolerance(tolerance)
             .by_sweeps_only();
         let mut state = self.start.clone();

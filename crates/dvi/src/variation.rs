@@ -1,14 +1,10 @@
 //! First variations: the derivative of the flow, carried along with a trajectory.
 
-use lie::{
-    AlgebraOver, Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace,
-};
+use lie::{Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
 
-use crate::balance::Balance;
-use crate::jets::add_constant;
-use crate::{DiscreteLagrangian, Integrator, Newton, State, StepError, StepReport, StepSolver};
+use crate::{Integrator, State, StepError, StepReport, System};
 
-/// A first variation of a trajectory: how the state moves when the initial state or the forces do.
+/// A first variation of a trajectory: how the state moves when the initial state, the forces or the parameters do.
 ///
 /// Left-trivialised: the varied configuration is $g \exp(\epsilon \eta)$, the varied momentum $\mu + \epsilon\, \delta\mu$.
 /// Columns of the flow's derivative $\partial (g_T, \mu_T) / \partial (g_0, \mu_0)$ are variations that start as a
@@ -23,6 +19,9 @@ pub struct Variation<G: RealGroup> {
     /// acts by the impulses $f_d^- = f_d^+ = \frac h2 \delta F$, in [`Gauss`](crate::Gauss) at the stages, as
     /// [`Forced`](crate::Forced) does. An impulse at one time is a change of [`mu`](Self::mu) there.
     pub force: G::Dual,
+    /// $\delta p$: a change of the system's [parameters](System::parameters), the same in every step until it is set anew; those past its end
+    /// do not change.
+    pub parameters: Vec<f64>,
 }
 
 impl<G: RealGroup> Variation<G> {
@@ -32,6 +31,7 @@ impl<G: RealGroup> Variation<G> {
             eta: g.zero_algebra(),
             mu: g.zero_dual(),
             force: g.zero_dual(),
+            parameters: Vec::new(),
         }
     }
 
@@ -59,6 +59,18 @@ impl<G: RealGroup> Variation<G> {
         (0..g.zero_dual().dim()).map(unit).collect()
     }
 
+    /// The unit variations of the parameters of a system, one for each: they become the derivatives of the state by them.
+    pub fn parameters<C: System<Group = G>>(system: &C, g: &G) -> Vec<Self> {
+        let count = system.parameters().len();
+        let unit = |i: usize| {
+            let mut unit = Self::zero(g);
+            unit.parameters.resize(count, 0.0);
+            unit.parameters[i] = 1.0;
+            unit
+        };
+        (0..count).map(unit).collect()
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
         self.eta.max_magnitude().is_finite() && self.mu.max_magnitude().is_finite()
     }
@@ -73,22 +85,25 @@ pub fn symplectic_form<G: RealGroup>(mu: &G::Dual, a: &Variation<G>, b: &Variati
 /// An integrator that carries first variations along: the derivative of its own discrete flow, not of the continuous one.
 ///
 /// ```
-/// use dvi::{FirstVariation, Lagrangian, Midpoint, Variation, Variational};
+/// use dvi::{Context, FirstVariation, Lagrangian, Quadrature, System, Variation, Variational};
 /// use lie::{Rn, Scalar, Tangent};
 ///
 /// /// A particle of 1 kg on a spring of 1 N/m.
 /// struct Spring;
 ///
-/// impl Lagrangian for Spring {
+/// impl System for Spring {
 ///     type Group = Rn<1>;
-///     fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+/// }
+///
+/// impl Lagrangian for Spring {
+///     fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
 ///         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
 ///     }
 /// }
 ///
 /// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
 /// let mut columns = Variation::basis(&state.g);
-/// let mut integrator = Variational::new(Spring.discretise::<Midpoint>());
+/// let mut integrator = Variational::new(Spring.discretise(Quadrature::Midpoint));
 /// for _ in 0..100 {
 ///     integrator.step_varied(&mut state, &mut columns, 0.01)?;
 /// }
@@ -112,89 +127,6 @@ pub trait FirstVariation: Integrator {
 
 type J = <f64 as Scalar>::Jet;
 
-/// The derivative of a solved step by the implicit-function rule: with $r(c; g, \mu) = 0$, $\delta c = -(\partial_c r)^{-1} \delta r$.
-pub(crate) struct Linearised<G: RealGroup> {
-    newton: Newton<G>,
-    balance: Balance<G, J>,
-    varied: Varied<G>,
-    c: AlgebraOver<G, J>,
-    delta: G::Algebra,
-    delta_residual: G::Dual,
-}
-
-impl<G: RealGroup> Linearised<G> {
-    pub(crate) fn new<L: DiscreteLagrangian<Group = G>>(lagrangian: &L, state: &G) -> Self {
-        let varied = Varied::new(state);
-        Self {
-            newton: StepSolver::<L>::allocate(lagrangian, state),
-            balance: Balance::new(&varied.g),
-            c: varied.g.zero_algebra(),
-            delta: state.zero_algebra(),
-            delta_residual: state.zero_dual(),
-            varied,
-        }
-    }
-
-    /// Whether the storage is for states of the shape of `g`.
-    pub(crate) fn fits(&self, g: &G) -> bool {
-        self.varied.same_shape(g)
-    }
-
-    /// Carries variations of `state` over the step of size `h` whose solution is `c`.
-    pub(crate) fn carry<L: DiscreteLagrangian<Group = G>, R: Retraction>(
-        &mut self,
-        lagrangian: &L,
-        (state, h): (&State<G>, f64),
-        c: &G::Algebra,
-        variations: &mut [Variation<G>],
-    ) {
-        StepSolver::<L>::renew::<R>(&mut self.newton, lagrangian, state, h, c);
-        for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
-            self.varied.enter(state, chunk);
-            let (mu, force) = (&mut self.varied.mu, &self.varied.force);
-            mu.add_scaled(J::constant(0.5 * h), force);
-            self.c.set_zero();
-            add_constant(&mut self.c, c);
-            self.evaluate::<L, R>(lagrangian, state.t, h);
-            for direction in 0..chunk.len() {
-                self.follow::<L>(lagrangian, direction);
-            }
-            self.evaluate::<L, R>(lagrangian, state.t, h);
-            let (f, mu) = (&self.balance.f, &self.balance.transported);
-            self.varied.leave(f, mu, chunk);
-            for variation in chunk {
-                variation.mu.add_scaled(0.5 * h, &variation.force);
-            }
-        }
-    }
-
-    fn evaluate<L: DiscreteLagrangian<Group = G>, R: Retraction>(
-        &mut self,
-        lagrangian: &L,
-        t: f64,
-        h: f64,
-    ) {
-        self.balance.retract::<R>(&self.c);
-        let (t, h) = (J::constant(t), J::constant(h));
-        let Varied { g, mu, .. } = &self.varied;
-        self.balance.evaluate(lagrangian, t, g, mu, h);
-    }
-
-    /// Moves `c` along with one direction of the variations, so that the residual stays zero to first order.
-    fn follow<L: DiscreteLagrangian<Group = G>>(&mut self, lagrangian: &L, direction: usize) {
-        for i in 0..self.delta_residual.dim() {
-            let slope = self.balance.residual.get(i).partial(direction);
-            self.delta_residual.set(i, slope);
-        }
-        self.newton
-            .solve(lagrangian, &self.delta_residual, &mut self.delta);
-        for i in 0..self.delta.dim() {
-            let moved = J::variable(0.0, direction).times(self.delta.get(i));
-            self.c.set(i, self.c.get(i) - moved);
-        }
-    }
-}
-
 /// A varied state over dual numbers, a direction for each variation.
 pub(crate) struct Varied<G: RealGroup> {
     /// $\exp(\eta)$.
@@ -205,6 +137,8 @@ pub(crate) struct Varied<G: RealGroup> {
     pub(crate) mu: DualOver<G, J>,
     /// $\delta F$.
     pub(crate) force: DualOver<G, J>,
+    /// $p + \delta p$.
+    pub(crate) parameters: Vec<J>,
 }
 
 impl<G: RealGroup> Varied<G> {
@@ -214,6 +148,7 @@ impl<G: RealGroup> Varied<G> {
             turn: g.clone(),
             mu: g.zero_dual(),
             force: g.zero_dual(),
+            parameters: Vec::new(),
             g,
         }
     }
@@ -222,7 +157,11 @@ impl<G: RealGroup> Varied<G> {
         self.g.same_shape(&g.lift::<J>())
     }
 
-    pub(crate) fn enter(&mut self, state: &State<G>, chunk: &[Variation<G>]) {
+    pub(crate) fn enter(
+        &mut self,
+        (parameters, state): (&[f64], &State<G>),
+        chunk: &[Variation<G>],
+    ) {
         let along = |part: &dyn Fn(&Variation<G>) -> f64| {
             let terms = chunk.iter().enumerate();
             terms.fold(J::constant(0.0), |sum, (direction, variation)| {
@@ -236,6 +175,11 @@ impl<G: RealGroup> Varied<G> {
             self.mu.set(i, J::constant(state.mu.get(i)) + change);
             self.force
                 .set(i, along(&|variation| variation.force.get(i)));
+        }
+        self.parameters.clear();
+        for (i, parameter) in parameters.iter().enumerate() {
+            let change = along(&|variation| variation.parameters.get(i).copied().unwrap_or(0.0));
+            self.parameters.push(J::constant(*parameter) + change);
         }
         Cayley::retract_into::<Over<G, J>>(&eta, &mut self.turn);
         self.g = state.g.lift::<J>().compose(&self.turn);

@@ -1,14 +1,18 @@
-//! What a body costs: time per evaluation and per step, and memory, of a chain of ball joints against its number of bodies.
+//! What a body costs: time per evaluation and per step of several methods, and memory, of a chain of ball joints against its number of bodies.
 //!
 //! `cargo run --release -p lgvi-study --example bodies [BODIES ...]`: by default 1, 3, 10, 30, 100, 300 and 1000 bodies. The joints
-//! are general and the matrices full. Times are the shortest of repeated runs; their ratios carry over between machines.
+//! are general and the matrices full; the forced chain has a brake on every joint. Times are the shortest of repeated runs; their ratios
+//! carry over between machines.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
-use dvi::{ContinuousSystem, Integrator, Lagrangian, State, Variational};
-use lie::{LieGroup, Mat3, Power, R3, SO3, Tangent, Vec3};
+use dvi::{
+    Composition, Context, ContinuousSystem, Discretised, Force, Forced, Integrator, Lagrangian,
+    Quadrature, State, StepError, Variational,
+};
+use lie::{AlgebraOver, DualOver, LieGroup, Mat3, Power, R3, SO3, Scalar, Tangent, Vec3};
 
 /// Step size, s.
 const H: f64 = 1e-3;
@@ -24,12 +28,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         counts = vec![1, 3, 10, 30, 100, 300, 1000];
     }
     println!(
-        "{:>8} | {:>12} {:>9} | {:>12} {:>9} {:>10} | {:>12}",
-        "bodies", "evaluation", "per body", "step", "per body", "iterations", "memory"
+        "{:>6} | {:>11} {:>8} | {:>11} {:>8} {:>10} | {:>11} {:>13} | {:>9}",
+        "bodies", "evaluation", "per body", "lgvi", "per body", "iterations", "forced", "composition-4", "memory"
     );
     println!(
-        "{:>8} | {:>12} {:>9} | {:>12} {:>9} {:>10} | {:>12}",
-        "", "us", "ns", "us", "ns", "", "kB"
+        "{:>6} | {:>11} {:>8} | {:>11} {:>8} {:>10} | {:>11} {:>13} | {:>9}",
+        "", "us", "ns", "us", "ns", "", "us", "us", "kB"
     );
     for n in counts {
         row(n)?;
@@ -60,53 +64,87 @@ fn chain(n: usize) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn st
     let slow = |k| 0.1 * wave(k);
     let rate = |k| Tangent([slow(k), 2.0 * slow(k + 1), slow(k + 3)]);
     let g = (
-        attitude(0),
-        R3::identity(),
-        (1..n).map(attitude).collect::<Power<_>>(),
+        (0..n).map(attitude).collect::<Power<_>>(),
+        Power::new(vec![R3::identity()]),
     );
     let xi = (
-        rate(0),
-        Tangent([0.0; 3]),
-        (1..n).map(rate).collect::<Power<_>>(),
+        (0..n).map(rate).collect::<Power<_>>(),
+        Power::new(vec![Tangent([0.0; 3])]),
     );
     let state = model.state(0.0, g, &xi)?;
     Ok((model, state))
 }
 
+/// A brake of 0.1 N m s on every joint of a chain.
+struct Brake;
+
+impl Force for Brake {
+    type Group = Configuration;
+    const INLINE: bool = true;
+
+    #[inline(always)]
+    fn force<S: Scalar>(
+        &self,
+        _: Context<S>,
+        (r, _): &Configuration<S>,
+        (omega, _): &AlgebraOver<Configuration, S>,
+        (torques, _): &mut DualOver<Configuration, S>,
+    ) {
+        let rate = |i: usize| r[i].rotate(omega[i].vec3());
+        for i in 1..r.len() {
+            let torque = (rate(i) - rate(i - 1)) * S::from_f64(0.1);
+            torques[i] = (torques[i].vec3() - r[i].inverse_rotate(torque)).into();
+            let on_parent = r[i - 1].inverse_rotate(torque);
+            torques[i - 1] = (torques[i - 1].vec3() + on_parent).into();
+        }
+    }
+}
+
 fn row(n: usize) -> Result<(), Box<dyn std::error::Error>> {
-    let (model, mut state) = chain(n)?;
-    let evaluation = evaluation(&model, &state);
-    let mut integrator = Variational::with_inertia(model);
+    let (model, start) = chain(n)?;
+    let evaluation = evaluation(&model, &start);
+    let mut integrator = Variational::new(model.clone());
+    let mut state = start.clone();
     let mut iterations = 0;
     let memory = allocation_counter::measure(|| {
         if let Ok(report) = integrator.step(&mut state, H) {
             iterations = report.iterations;
         }
     });
-    let step = shortest(|| {
-        integrator
-            .step(&mut state, H)
-            .map(|report| iterations = report.iterations)
-    })?;
+    let step = step(integrator, &start)?;
+    let brake = Discretised::new(Brake, Quadrature::LeftPoint);
+    let forced = self::step(Variational::new(Forced::new(model.clone(), brake)), &start)?;
+    let composition = self::step(Composition::new::<4>(model), &start)?;
     let (us, each) = (|t: f64| 1e6 * t, |t: f64| 1e9 * t / n as f64);
     println!(
-        "{n:>8} | {:>12.3} {:>9.1} | {:>12.3} {:>9.1} {iterations:>10} | {:>12.1}",
+        "{n:>6} | {:>11.3} {:>8.1} | {:>11.3} {:>8.1} {iterations:>10} | {:>11.3} {:>13.3} | {:>9.1}",
         us(evaluation),
         each(evaluation),
         us(step),
         each(step),
+        us(forced),
+        us(composition),
         memory.bytes_current as f64 / 1e3,
     );
     Ok(())
 }
 
+/// Seconds of one step.
+fn step(
+    mut integrator: impl Integrator<Group = Configuration>,
+    start: &State<Configuration>,
+) -> Result<f64, StepError> {
+    let mut state = start.clone();
+    shortest(|| integrator.step(&mut state, H).map(|_| ()))
+}
+
 /// Seconds of one evaluation of velocity and force.
 fn evaluation(model: &ArticulatedBody, state: &State<Configuration>) -> f64 {
-    let mut workspace = ContinuousSystem::workspace::<f64>(model, &state.g);
+    let (at, mut workspace) = (Context::new(0.0, &[]), Default::default());
     let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
     let evaluated: Result<f64, core::convert::Infallible> = shortest(|| {
         let (g, mu) = black_box((&state.g, &state.mu));
-        model.velocity_and_force::<f64>(0.0, g, mu, &mut workspace, &mut xi, &mut tau);
+        model.velocity_and_force::<f64>(at, g, mu, &mut workspace, &mut xi, &mut tau);
         black_box((&xi, &tau));
         Ok(())
     });

@@ -170,7 +170,7 @@ fn run<const S: usize>(
     steps: u64,
     mut each: impl FnMut(&State<Configuration>),
 ) -> Result<u64, dvi::StepError> {
-    let mut integrator = Gauss::<_, S>::new(problem.model.clone()).with_tolerance(tolerance);
+    let mut integrator = Gauss::new::<S>(problem.model.clone()).with_tolerance(tolerance);
     let (mut state, h) = (problem.start.clone(), problem.until / steps as f64);
     let mut sweeps = 0;
     for _ in 0..steps {

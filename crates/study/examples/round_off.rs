@@ -4,7 +4,7 @@
 //!
 //! A random walk grows as the square root of the number of steps (Brouwer's law); a bias, in proportion to it.
 
-use dvi::{ContinuousSystem, Gauss, Integrator, State};
+use dvi::{Context, ContinuousSystem, Gauss, Integrator, State, System};
 use lie::{Cotangent, LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
 use study::survey::slope;
 
@@ -18,8 +18,11 @@ const LEVER: Vec3 = Vec3([0.1, 0.2, 0.7]);
 
 struct Body;
 
-impl ContinuousSystem for Body {
+impl System for Body {
     type Group = SO3;
+}
+
+impl ContinuousSystem for Body {
     type Workspace<S: Scalar> = ();
 
     fn workspace<S: Scalar>(&self, _: &SO3<S>) {}
@@ -66,7 +69,7 @@ fn samples(steps: u64) -> Vec<u64> {
 }
 
 fn trajectory(k: u32, samples: &[u64]) -> Vec<f64> {
-    let (mut state, mut integrator) = (start(k), Gauss::<_, 6>::new(Body));
+    let (mut state, mut integrator) = (start(k), Gauss::new::<6>(Body));
     let initial = energy(&state);
     // Relative to the kinetic and potential parts, since the energy itself may be near zero.
     let size = initial.abs() + LEVER.norm();

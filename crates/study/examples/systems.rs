@@ -12,7 +12,7 @@ use std::error::Error;
 use std::path::Path;
 use std::thread;
 
-use dvi::{Lagrangian, LeftPoint, Midpoint, RightPoint, Trapezoid};
+use dvi::{Lagrangian, Quadrature};
 use lie::{Cayley, Exp};
 use study::problems::Problem;
 use study::survey::{LongRun, Method, SurveyError, composition, gauss, systems, variational};

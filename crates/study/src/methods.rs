@@ -25,20 +25,20 @@ pub type BoxedIntegrator<G> = Box<dyn Integrator<Group = G> + Send>;
 macro_rules! integrator {
     ($method:expr, $model:expr) => {
         match $method {
-            Method::Lgvi => Box::new(Variational::with_inertia($model)),
+            Method::Lgvi => Box::new(Variational::new($model)),
             Method::LgviAdjoint => Box::new(Variational::new(Adjoint($model))),
-            Method::Composition2 => Box::new(Composition::<_, 2>::new($model)),
-            Method::Composition4 => Box::new(Composition::<_, 4>::new($model)),
-            Method::Composition6 => Box::new(Composition::<_, 6>::new($model)),
-            Method::Composition8 => Box::new(Composition::<_, 8>::new($model)),
-            Method::Gauss1 => Box::new(Gauss::<_, 1>::new($model)),
-            Method::Gauss2 => Box::new(Gauss::<_, 2>::new($model)),
-            Method::Gauss3 => Box::new(Gauss::<_, 3>::new($model)),
-            Method::Gauss4 => Box::new(Gauss::<_, 4>::new($model)),
-            Method::Gauss5 => Box::new(Gauss::<_, 5>::new($model)),
-            Method::Gauss6 => Box::new(Gauss::<_, 6>::new($model)),
-            Method::Gauss7 => Box::new(Gauss::<_, 7>::new($model)),
-            Method::Gauss8 => Box::new(Gauss::<_, 8>::new($model)),
+            Method::Composition2 => Box::new(Composition::new::<2>($model)),
+            Method::Composition4 => Box::new(Composition::new::<4>($model)),
+            Method::Composition6 => Box::new(Composition::new::<6>($model)),
+            Method::Composition8 => Box::new(Composition::new::<8>($model)),
+            Method::Gauss1 => Box::new(Gauss::new::<1>($model)),
+            Method::Gauss2 => Box::new(Gauss::new::<2>($model)),
+            Method::Gauss3 => Box::new(Gauss::new::<3>($model)),
+            Method::Gauss4 => Box::new(Gauss::new::<4>($model)),
+            Method::Gauss5 => Box::new(Gauss::new::<5>($model)),
+            Method::Gauss6 => Box::new(Gauss::new::<6>($model)),
+            Method::Gauss7 => Box::new(Gauss::new::<7>($model)),
+            Method::Gauss8 => Box::new(Gauss::new::<8>($model)),
         }
     };
 }

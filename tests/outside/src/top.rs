@@ -1,6 +1,6 @@
 //! A heavy top on the unit quaternions, and the same one on the rotations.
 
-use lgvi::dvi::Lagrangian;
+use lgvi::dvi::{Context, Lagrangian, System};
 use lgvi::lie::{Mat3, SO3, Scalar, Tangent, Vec3};
 
 use crate::UnitQuaternion;
@@ -19,10 +19,12 @@ fn kinetic<S: Scalar>(omega: &Tangent<3, S>) -> S {
 #[derive(Clone, Copy, Debug)]
 pub struct QuaternionTop;
 
-impl Lagrangian for QuaternionTop {
+impl System for QuaternionTop {
     type Group = UnitQuaternion;
+}
 
-    fn value<S: Scalar>(&self, q: &UnitQuaternion<S>, omega: &Tangent<3, S>) -> S {
+impl Lagrangian for QuaternionTop {
+    fn value<S: Scalar>(&self, _: Context<S>, q: &UnitQuaternion<S>, omega: &Tangent<3, S>) -> S {
         kinetic(omega) - q.rotate(LEVER.lift())[2]
     }
 }
@@ -31,10 +33,12 @@ impl Lagrangian for QuaternionTop {
 #[derive(Clone, Copy, Debug)]
 pub struct MatrixTop;
 
-impl Lagrangian for MatrixTop {
+impl System for MatrixTop {
     type Group = SO3;
+}
 
-    fn value<S: Scalar>(&self, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
+impl Lagrangian for MatrixTop {
+    fn value<S: Scalar>(&self, _: Context<S>, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
         kinetic(omega) - r.rotate(LEVER.lift())[2]
     }
 }

@@ -1,16 +1,13 @@
 //! The search for the plane of a motion: the coordinate planes, and what violates them.
 
-use dvi::{ContinuousSystem, State};
+use dvi::{Context, ContinuousSystem, State};
 use lie::{LieGroup, Mat3, SO3, Vec3, VectorSpace};
 
+use super::error::{NotPlanar, NotPlanarCause};
 use super::frame::{nearest_axis, off_axis};
-use super::plane::first_and_rest;
-use super::{NotPlanar, NotPlanarCause};
-use crate::elimination::{Momentum, Velocity, of};
-use crate::model::Node;
-use crate::springs::{Spring, Springs};
-use crate::weight::Weight;
-use crate::{ArticulatedBody, Configuration};
+use crate::loads::{Spring, Springs, Weight};
+use crate::node::Node;
+use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
 /// How large a body is.
 #[derive(Clone, Copy)]
@@ -87,21 +84,21 @@ struct Motion<'a> {
 impl<'a> Motion<'a> {
     fn new(model: &'a ArticulatedBody, state: &'a State<Configuration>) -> Result<Self, NotPlanar> {
         let State { t, g, mu } = state;
-        if [g.2.len(), mu.2.len()] != [model.nodes.len() - 1; 2] {
+        if !(model.has_shape_of(g) && model.has_shape_of(mu)) {
             return Err(not_a_state());
         }
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
-        let mut workspace = ContinuousSystem::workspace::<f64>(model, g);
-        model.velocity_and_force::<f64>(*t, g, mu, &mut workspace, &mut xi, &mut tau);
+        let (at, mut work) = (Context::new(*t, &[]), Default::default());
+        model.velocity_and_force::<f64>(at, g, mu, &mut work, &mut xi, &mut tau);
         let magnitude = xi.max_magnitude() + tau.max_magnitude() + mu.max_magnitude();
         if !(g.is_finite() && magnitude.is_finite()) {
             return Err(not_a_state());
         }
         let sizes = sizes(model);
         let extents = || sizes.iter().map(|size| size.extent);
-        let rates = || first_and_rest(&xi.0, &xi.2).map(|omega| omega.vec3().norm());
+        let rates = || xi.0.iter().map(|omega| omega.vec3().norm());
         let speeds = rates().zip(extents()).map(|(rate, extent)| rate * extent);
-        let speed = speeds.fold(xi.1.vec3().norm(), f64::max);
+        let speed = speeds.fold(xi.1[0].vec3().norm(), f64::max);
         let rate = rates().fold(0.0, f64::max);
         Ok(Self {
             model,
@@ -115,11 +112,11 @@ impl<'a> Motion<'a> {
     }
 
     fn attitude(&self, i: usize) -> &SO3 {
-        of((&self.state.g.0, &self.state.g.2), i)
+        &self.state.g.0[i]
     }
 
     fn rate(&self, i: usize) -> Vec3 {
-        of((&self.xi.0, &self.xi.2), i).vec3()
+        self.xi.0[i].vec3()
     }
 
     /// The size of body `i` with a joint at `x`, m.
@@ -128,7 +125,7 @@ impl<'a> Motion<'a> {
     }
 
     fn springs(&self) -> impl Iterator<Item = &Spring> {
-        self.model.springs.iter().flat_map(Springs::iter)
+        self.model.loads.springs.iter().flat_map(Springs::iter)
     }
 
     /// How many quantities violate the plane with this normal, and the worst of all.
@@ -155,7 +152,7 @@ impl<'a> Motion<'a> {
         let velocity = Violation {
             what: NotPlanarCause::VelocityOffPlane,
             body: 0,
-            defect: ratio(n.dot(self.xi.1.vec3()), self.speed),
+            defect: ratio(n.dot(self.xi.1[0].vec3()), self.speed),
         };
         let weight = Violation {
             what: NotPlanarCause::GravityOffPlane,
@@ -206,7 +203,13 @@ impl<'a> Motion<'a> {
     /// The part of gravity along the normal, where it acts.
     fn gravity_off_plane(&self, n: Vec3) -> f64 {
         let acts = |weight: &&Weight| !weight.is_balanced();
-        let gravity = self.model.weight.as_ref().filter(acts).map(Weight::gravity);
+        let gravity = self
+            .model
+            .loads
+            .weight
+            .as_ref()
+            .filter(acts)
+            .map(Weight::gravity);
         gravity.map_or(0.0, |gravity| ratio(n.dot(gravity), gravity.norm()))
     }
 
@@ -218,9 +221,7 @@ impl<'a> Motion<'a> {
     /// The largest part of a $\dot p_i$ perpendicular to the normal, N m.
     fn torque(&self, n: Vec3) -> f64 {
         let transport = Configuration::coadjoint_bracket(&self.xi, &self.state.mu);
-        let rates = first_and_rest(&transport.0, &transport.2)
-            .zip(first_and_rest(&self.tau.0, &self.tau.2))
-            .enumerate();
+        let rates = transport.0.iter().zip(self.tau.0.iter()).enumerate();
         let off = rates.map(|(i, (transport, tau))| {
             let normal = self.attitude(i).inverse_rotate(n);
             (transport.vec3() + tau.vec3()).cross(normal).norm()

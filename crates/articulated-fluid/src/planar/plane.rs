@@ -3,14 +3,15 @@
 use dvi::State;
 use lie::{Cotangent, LieGroup, Power, Rn, SO2, SO3, Vec3, VectorSpace};
 
+use super::error::NotPlanar;
+use super::find;
 use super::frame::{Frame, nearest_axis, off_axis};
-use super::springs::{Spring, Springs};
+use super::loads::{Loads, Spring, Springs, Weight};
+use super::tree::{Node, PlanarBody, PlanarConfiguration};
 use super::vector::Vec2;
-use super::weight::Weight;
-use super::{Node, NotPlanar, PlanarBody, PlanarConfiguration, find};
-use crate::elimination::of;
-use crate::view::View;
-use crate::{ArticulatedBody, Configuration};
+use crate::loads;
+use crate::tree::{ArticulatedBody, Configuration};
+use crate::views::View;
 
 /// The mirror plane of a model and its motion, with the model in it.
 ///
@@ -39,24 +40,20 @@ impl Plane {
     /// [`NotPlanar`], with what violates the best plane, and by how much.
     pub fn find(model: &ArticulatedBody, state: &State<Configuration>) -> Result<Self, NotPlanar> {
         let world = Frame::with_normal(find::normal(model, state)?);
-        let body = |i: usize| {
-            let r = of((&state.g.0, &state.g.2), i);
-            Frame::with_normal(nearest_axis(r.inverse_rotate(world.normal)))
-        };
+        let body =
+            |i: usize| Frame::with_normal(nearest_axis(state.g.0[i].inverse_rotate(world.normal)));
         let bodies: Vec<Frame> = (0..model.nodes.len()).map(body).collect();
         let mut plane = Self {
             model: PlanarBody {
                 nodes: nodes(model, &bodies),
-                weight: None,
-                springs: None,
-                keeps_translation: model.keeps_translation,
+                loads: Loads::default(),
             },
             world,
             bodies,
-            offset: world.normal.dot(state.g.1.vec3()),
+            offset: world.normal.dot(state.g.1[0].vec3()),
         };
-        plane.model.weight = plane.weight(model);
-        plane.model.springs = plane.springs(model);
+        plane.model.loads.weight = plane.weight(model);
+        plane.model.loads.springs = plane.springs(model);
         Ok(plane)
     }
 
@@ -74,36 +71,24 @@ impl Plane {
     pub fn project(&self, state: &State<Configuration>) -> State<PlanarConfiguration> {
         let (mut planar, State { t, g, mu }) = (self.origin(), state);
         planar.t = *t;
-        planar.g.1.0 = self.world.project(g.1.vec3()).0;
-        planar.mu.1.0 = self.world.project(mu.1.vec3()).0;
-        let (r, p) = (first_and_rest(&g.0, &g.2), first_and_rest(&mu.0, &mu.2));
-        let angles = (&mut planar.g.0, &mut planar.g.2[..]);
-        let momenta = (&mut planar.mu.0, &mut planar.mu.2[..]);
-        for ((body, r), angle) in self.bodies.iter().zip(r).zip(each(angles)) {
-            *angle = self.world.angle_of(r, body);
-        }
-        for ((body, p), momentum) in self.bodies.iter().zip(p).zip(each(momenta)) {
-            momentum[0] = body.normal.dot(p.vec3());
+        planar.g.1[0].0 = self.world.project(g.1[0].vec3()).0;
+        planar.mu.1[0].0 = self.world.project(mu.1[0].vec3()).0;
+        for (i, body) in self.bodies.iter().enumerate() {
+            planar.g.0[i] = self.world.angle_of(&g.0[i], body);
+            planar.mu.0[i][0] = body.normal.dot(mu.0[i].vec3());
         }
         planar
     }
 
     /// The state in space.
     pub fn lift(&self, planar: &State<PlanarConfiguration>) -> State<Configuration> {
-        let tails = self.bodies.len() - 1;
-        let mut state = State {
-            t: planar.t,
-            g: (
-                SO3::identity(),
-                Rn::identity(),
-                Power::new(vec![SO3::identity(); tails]),
-            ),
-            mu: (
-                Cotangent::zero(),
-                Cotangent::zero(),
-                Power::new(vec![Cotangent::zero(); tails]),
-            ),
-        };
+        let n = self.bodies.len();
+        let g: Configuration = (
+            Power::new(vec![SO3::identity(); n]),
+            Power::new(vec![Rn::identity()]),
+        );
+        let mu = g.zero_dual();
+        let mut state = State { t: planar.t, g, mu };
         self.lift_into(planar, &mut state);
         state
     }
@@ -112,25 +97,21 @@ impl Plane {
     pub fn lift_into(&self, planar: &State<PlanarConfiguration>, state: &mut State<Configuration>) {
         let State { t, g, mu } = planar;
         state.t = *t;
-        let x = self.world.lift(Vec2(g.1.0)) + self.world.normal * self.offset;
-        state.g.1 = x.into();
-        state.mu.1 = self.world.lift(Vec2(mu.1.0)).into();
-        let (r, p) = (first_and_rest(&g.0, &g.2), first_and_rest(&mu.0, &mu.2));
-        let attitudes = (&mut state.g.0, &mut state.g.2[..]);
-        let momenta = (&mut state.mu.0, &mut state.mu.2[..]);
-        for ((body, r), attitude) in self.bodies.iter().zip(r).zip(each(attitudes)) {
-            *attitude = self.world.attitude(r, body);
-        }
-        for ((body, p), momentum) in self.bodies.iter().zip(p).zip(each(momenta)) {
-            *momentum = (body.normal * p[0]).into();
+        let x = self.world.lift(Vec2(g.1[0].0)) + self.world.normal * self.offset;
+        state.g.1[0] = x.into();
+        state.mu.1[0] = self.world.lift(Vec2(mu.1[0].0)).into();
+        for (i, body) in self.bodies.iter().enumerate() {
+            state.g.0[i] = self.world.attitude(&g.0[i], body);
+            state.mu.0[i] = (body.normal * mu.0[i][0]).into();
         }
     }
 
     /// Whether a state is one of this plane, exactly: of as many bodies, and with no part out of the plane.
     pub fn contains(&self, state: &State<Configuration>) -> bool {
-        let ((r0, x, r), (p0, px, p)) = (&state.g, &state.mu);
+        let ((r, x), (p, px)) = (&state.g, &state.mu);
         let normal = self.world.normal;
-        if [r.len(), p.len()] != [self.bodies.len() - 1; 2] {
+        let n = self.bodies.len();
+        if [r.len(), x.len(), p.len(), px.len()] != [n, 1, n, 1] {
             return false;
         }
         let keeps = |(body, r): (&Frame, &SO3)| {
@@ -140,22 +121,20 @@ impl Plane {
         };
         let spins = |(body, p): (&Frame, &Cotangent<3>)| off_axis(p.vec3(), body.normal) == 0.0;
         let finite = state.g.is_finite() && state.mu.max_magnitude().is_finite();
-        let mut bodies = self.bodies.iter().zip(first_and_rest(r0, r));
-        let mut momenta = self.bodies.iter().zip(first_and_rest(p0, p));
+        let mut bodies = self.bodies.iter().zip(r.iter());
+        let mut momenta = self.bodies.iter().zip(p.iter());
         finite
-            && normal.dot(x.vec3()) == self.offset
-            && normal.dot(px.vec3()) == 0.0
+            && normal.dot(x[0].vec3()) == self.offset
+            && normal.dot(px[0].vec3()) == 0.0
             && bodies.all(keeps)
             && momenta.all(spins)
     }
 
     /// All angles zero, at rest at the origin.
-    pub(super) fn origin(&self) -> State<PlanarConfiguration> {
-        let tails = self.bodies.len() - 1;
-        let g = (
-            SO2::identity(),
-            Rn::identity(),
-            Power::new(vec![SO2::identity(); tails]),
+    fn origin(&self) -> State<PlanarConfiguration> {
+        let g: PlanarConfiguration = (
+            Power::new(vec![SO2::identity(); self.bodies.len()]),
+            Power::new(vec![Rn::identity()]),
         );
         let mu = g.zero_dual();
         State { t: 0.0, g, mu }
@@ -163,7 +142,7 @@ impl Plane {
 
     /// $a_i$ and $b_i$ from the torques at the angles $\pi/2$ and 0.
     fn weight(&self, model: &ArticulatedBody) -> Option<Weight> {
-        let weight = model.weight.as_ref()?;
+        let weight = model.loads.weight.as_ref()?;
         let torque = |i: usize, angle: SO2| {
             let (body, n) = (&self.bodies[i], self.bodies[i].normal);
             n.dot(weight.torque(i, &self.world.attitude(&angle, body)))
@@ -178,8 +157,8 @@ impl Plane {
 
     /// $\alpha_i$ is the angle of $N_p^T N_i$.
     fn springs(&self, model: &ArticulatedBody) -> Option<Springs> {
-        let elastic = model.springs.as_ref()?.iter();
-        let spring = |spring: &crate::springs::Spring| Spring {
+        let elastic = model.loads.springs.as_ref()?.iter();
+        let spring = |spring: &loads::Spring| Spring {
             parent: spring.parent,
             child: spring.child,
             stiffness: spring.stiffness,
@@ -216,14 +195,4 @@ fn nodes(model: &ArticulatedBody, frames: &[Frame]) -> Vec<Node> {
         Node::new(node.parent, frame.block(*mass), j, points)
     });
     planar.collect()
-}
-
-/// What is each body's, where the first body's is apart.
-pub(super) fn first_and_rest<'a, T>(first: &'a T, rest: &'a [T]) -> impl Iterator<Item = &'a T> {
-    core::iter::once(first).chain(rest)
-}
-
-/// The same, to be changed.
-fn each<'a, T>((first, rest): (&'a mut T, &'a mut [T])) -> impl Iterator<Item = &'a mut T> {
-    core::iter::once(first).chain(rest)
 }

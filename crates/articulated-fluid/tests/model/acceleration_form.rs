@@ -12,8 +12,8 @@ fn accelerations(sample: &Sample) -> Vec<f64> {
     let (p, r) = (Paper::new(sample), matrices(&sample.g));
     let Paper { m, j, d_0, d } = &p;
     let t = r.map(Mat3::transpose);
-    let (xi, v) = (&sample.xi, sample.xi.1.vec3());
-    let omega = [xi.0.vec3(), xi.2[0].vec3(), xi.2[1].vec3()];
+    let (xi, v) = (&sample.xi, sample.xi.1[0].vec3());
+    let omega = [0, 1, 2].map(|i| xi.0[i].vec3());
     let hat = omega.map(Vec3::hat);
     // (16) and (17).
     let joint = |i: usize| t[i] * v - t[i] * r[0] * d_0[i].hat() * omega[0];

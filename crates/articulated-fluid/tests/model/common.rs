@@ -3,9 +3,9 @@
 use core::ops::Range;
 
 use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
-use dvi::{ContinuousSystem, Derivatives, DiscreteLagrangian, Lagrangian, State};
+use dvi::{Context, ContinuousSystem, Derivatives, DiscreteLagrangian, Lagrangian, State};
 use lie::{
-    AlgebraOver, DualOver, JET_DIRECTIONS, Jet, LieGroup, Mat3, Power, RealGroup, Rn, SO3, Scalar,
+    AlgebraOver, DualOver, JET_DIRECTIONS, Jet, LieGroup, Mat3, Power, RealGroup, SO3, Scalar,
     Tangent, Vec3, VectorSpace,
 };
 use proptest::prelude::*;
@@ -90,12 +90,11 @@ impl Sample {
     }
 
     /// The centres from the first body on: $x_p + R_p d_{pi} - R_i d_{ip}$.
-    pub fn centres<S: Scalar>(&self, (r0, x, r): &Configuration<S>) -> Vec<Vec3<S>> {
-        let attitude = |i: usize| if i == 0 { r0 } else { &r[i - 1] };
-        let mut centres = vec![x.vec3()];
+    pub fn centres<S: Scalar>(&self, (r, x): &Configuration<S>) -> Vec<Vec3<S>> {
+        let mut centres = vec![x[0].vec3()];
         for joint in &self.joints {
-            let on = attitude(joint.parent).rotate(joint.at_parent.lift());
-            let back = attitude(joint.child).rotate(joint.at_child.lift());
+            let on = r[joint.parent].rotate(joint.at_parent.lift());
+            let back = r[joint.child].rotate(joint.at_child.lift());
             centres.push(centres[joint.parent] + on - back);
         }
         centres
@@ -106,12 +105,9 @@ impl Sample {
         let (gravity, masses) = self.weights();
         let weighed = masses.into_iter().zip(self.centres(g));
         let weight = weighed.fold(S::zero(), |sum, (m, x)| sum - (gravity * m).lift().dot(x));
-        let attitude = |i: usize| if i == 0 { &g.0 } else { &g.2[i - 1] };
         let elastic = self.joints.iter().zip(&self.stiffnesses);
         elastic.fold(weight, |sum, (joint, k)| {
-            let turn = attitude(joint.parent)
-                .inverse()
-                .compose(attitude(joint.child));
+            let turn = g.0[joint.parent].inverse().compose(&g.0[joint.child]);
             sum + (S::from_f64(3.0) - turn.matrix().trace()).times(0.5 * k)
         })
     }
@@ -126,9 +122,9 @@ impl Sample {
     /// The velocity of each centre in the reference frame as a linear map of $\xi$, by its 3 rows:
     /// $\dot x_i = \dot x_p - R_p \hat d_{pi} \Omega_p + R_i \hat d_{ip} \Omega_i$.
     pub fn jacobians(&self) -> Vec<Matrix> {
-        let r = attitudes(&self.g);
+        let (r, x) = (&self.g.0, translation(self.bodies.len()));
         let mut first = vec![vec![0.0; self.xi.dim()]; 3];
-        (0..3).for_each(|k| first[k][3 + k] = 1.0);
+        (0..3).for_each(|k| first[k][x.start + k] = 1.0);
         let mut jacobians = vec![first];
         for joint in &self.joints {
             let mut rows = jacobians[joint.parent].clone();
@@ -159,7 +155,7 @@ impl Sample {
             .bodies
             .iter()
             .zip(self.jacobians())
-            .zip(attitudes(&self.g));
+            .zip(self.g.0.iter());
         for (i, ((body, v), r)) in moving.enumerate() {
             let m = r.matrix().conjugate(body.mass);
             for (row, entries) in out.iter_mut().enumerate() {
@@ -178,14 +174,25 @@ impl Sample {
     }
 }
 
-/// The coordinates of body `i`'s rotation: those of the first body come before its translation's.
+/// The coordinates of body `i`'s rotation.
 pub fn rates(i: usize) -> Range<usize> {
-    let first = if i == 0 { 0 } else { 3 + 3 * i };
-    first..first + 3
+    3 * i..3 * i + 3
 }
 
-pub fn attitudes(g: &Configuration) -> Vec<SO3> {
-    core::iter::once(g.0).chain(g.2.iter().copied()).collect()
+/// The coordinates of the first body's translation: they come after all rotations.
+pub fn translation(bodies: usize) -> Range<usize> {
+    rates(bodies)
+}
+
+/// The element of a translation, or its velocity or momentum.
+pub fn alone<X>(x: impl Into<X>) -> Power<X> {
+    Power::new(vec![x.into()])
+}
+
+/// The attitudes' matrices and the position.
+pub fn entries((r, x): &Configuration) -> Vec<f64> {
+    let attitudes = r.iter().flat_map(|r| r.matrix().0.concat());
+    attitudes.chain(x[0].0).collect()
 }
 
 pub fn vector(size: f64) -> impl Strategy<Value = Vec3> {
@@ -277,21 +284,47 @@ pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value 
                     .enumerate()
                     .map(joint)
                     .collect();
-                let pose = |x: Vec3, r: &[SO3]| (r[0], Rn(x.0), Power::new(r[1..].to_vec()));
-                let rates: Vec<Tangent<3>> = omega.into_iter().map(Tangent::from).collect();
+                let pose = |x: Vec3, r: Vec<SO3>| (Power::new(r), alone(x));
                 Sample {
                     model: build(&bodies, &joints, &weight),
                     bodies,
                     joints,
                     weight,
                     stiffnesses,
-                    g: pose(x, &r),
-                    f: pose(dx, &f),
-                    xi: (rates[0], v.into(), Power::new(rates[1..].to_vec())),
+                    g: pose(x, r),
+                    f: pose(dx, f),
+                    xi: (omega.into_iter().map(Tangent::from).collect(), alone(v)),
                 }
                 .rebuilt()
             },
         )
+}
+
+/// Equal bodies on each other, bent and turning gently.
+pub fn gentle(shape: Shape, bodies: usize) -> (ArticulatedBody, State<Configuration>) {
+    let mass = Mat3::diagonal([1.0, 2.0, 2.0]);
+    let inertia = Mat3::diagonal([0.1, 0.2, 0.2]);
+    let joint = |child: usize| Joint {
+        parent: shape.parents(child).start,
+        child,
+        at_parent: Vec3([0.6, 0.0, 0.0]),
+        at_child: Vec3([-0.6, 0.0, 0.0]),
+    };
+    let joints: Vec<_> = (1..bodies).map(joint).collect();
+    let model = build(&vec![Body { mass, inertia }; bodies], &joints, &None);
+    let wave = |i: usize| {
+        let phase = 0.7 * i as f64;
+        Tangent([
+            0.1 * phase.cos(),
+            0.2 * phase.sin(),
+            0.3 * (1.3 * phase).sin(),
+        ])
+    };
+    let turns = (0..bodies).map(|i| SO3::exp(&wave(i))).collect();
+    let rates = (0..bodies).map(|i| wave(i + 5)).collect();
+    let (x, v) = (alone(Vec3::zero()), alone(Vec3([0.2, -0.1, 0.1])));
+    let start = model.state(0.0, (turns, x), &(rates, v));
+    (model, start.expect("a state"))
 }
 
 /// 1 to 5 bodies, displacements tiny and large.
@@ -336,7 +369,7 @@ impl Paper {
         }
     }
 
-    /// The matrix (4), block by block.
+    /// The matrix (4), block by block, in the order of the model's coordinates.
     pub fn inertia(&self, r: [Mat3; 3]) -> Matrix {
         let Self { m, j, d_0, d } = self;
         let (r0, t) = (r[0], r.map(Mat3::transpose));
@@ -372,21 +405,27 @@ impl Paper {
                 j[2] - hat[2] * m[2] * hat[2],
             ],
         ];
-        let entry = |row: usize, column: usize| blocks[row / 3][column / 3][(row % 3, column % 3)];
+        let entry = |row: usize, column: usize| {
+            let block = blocks[PRINTED[row / 3]][PRINTED[column / 3]];
+            block[(row % 3, column % 3)]
+        };
         (0..12)
             .map(|row| (0..12).map(|column| entry(row, column)).collect())
             .collect()
     }
 }
 
+/// Where the print has the blocks of the model's coordinates: there the translation stands after the first rotation.
+const PRINTED: [usize; 4] = [0, 2, 3, 1];
+
 /// The matrices $R_0, R_1, R_2$ of a configuration or displacement of three bodies.
 pub fn matrices(g: &Configuration) -> [Mat3; 3] {
-    [*g.0.matrix(), *g.2[0].matrix(), *g.2[1].matrix()]
+    [0, 1, 2].map(|i| *g.0[i].matrix())
 }
 
-/// The coordinates $(p_0, p_x, p_1, p_2)$.
+/// The model's coordinates of $(p_0, p_x, p_1, p_2)$.
 pub fn stacked(blocks: [Vec3; 4]) -> Vec<f64> {
-    blocks.into_iter().flat_map(|block| block.0).collect()
+    PRINTED.iter().flat_map(|i| blocks[*i].0).collect()
 }
 
 /// $g \exp(\eta)$ to first order, with the dual directions from `first` on.
@@ -423,6 +462,26 @@ pub fn flow(sample: &Sample) -> (Configuration<J>, Momentum<J>) {
     (g, along(&lifted.zero_dual(), &mu, &mu_dot))
 }
 
+/// At the time zero, without parameters.
+pub fn at_zero<S: Scalar>() -> Context<'static, S> {
+    Context::new(S::zero(), &[])
+}
+
+/// $L$.
+pub fn lagrangian<S: Scalar>(model: &ArticulatedBody, g: &Configuration<S>, xi: &Velocity<S>) -> S {
+    Lagrangian::value(model, at_zero(), g, xi)
+}
+
+/// $L_d$.
+pub fn action<S: Scalar>(
+    model: &ArticulatedBody,
+    g: &Configuration<S>,
+    f: &Configuration<S>,
+    h: S,
+) -> S {
+    DiscreteLagrangian::value(model, at_zero(), g, f, h)
+}
+
 /// Into storage filled with what must not survive.
 pub fn velocity_and_force<S: Scalar>(
     model: &ArticulatedBody,
@@ -432,8 +491,8 @@ pub fn velocity_and_force<S: Scalar>(
     let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
     spoil(&mut xi);
     spoil(&mut tau);
-    let mut workspace = ContinuousSystem::workspace::<S>(model, g);
-    model.velocity_and_force::<S>(S::zero(), g, mu, &mut workspace, &mut xi, &mut tau);
+    let mut work = Default::default();
+    model.velocity_and_force::<S>(at_zero(), g, mu, &mut work, &mut xi, &mut tau);
     (xi, tau)
 }
 
@@ -447,7 +506,7 @@ pub fn closed<S: Scalar>(
     let mut out = Derivatives::new(g);
     spoil(&mut out.d_f);
     spoil(&mut out.d_g);
-    model.derivatives(S::zero(), g, f, h, &mut out);
+    model.derivatives(at_zero(), g, f, h, &mut Default::default(), &mut out);
     out
 }
 
@@ -459,7 +518,7 @@ pub fn by_jets<S: Scalar>(
     h: S,
 ) -> Derivatives<Configuration, S> {
     let mut out = Derivatives::new(g);
-    out.by_jets(model, S::zero(), g, f, h);
+    out.by_jets(model, at_zero(), g, f, h);
     out
 }
 
@@ -469,7 +528,7 @@ pub fn force_by_jets(sample: &Sample) -> Vec<f64> {
     let still = along(&g.lift::<J>().zero_algebra(), xi, &xi.zero_like());
     let mut force = vec![];
     for first in (0..xi.dim()).step_by(JET_DIRECTIONS) {
-        let value = Lagrangian::value::<J>(model, &moved(g, first), &still);
+        let value = lagrangian(model, &moved(g, first), &still);
         force.extend((0..JET_DIRECTIONS).map(|d| value.partial(d)));
     }
     force.truncate(xi.dim());
@@ -494,7 +553,7 @@ pub fn hessian(model: &ArticulatedBody, g: &Configuration, xi: &Velocity) -> Mat
                 let x = inner.get(i) + J::constant(xi.get(i));
                 moved.set(i, moved.get(i) + J2::constant(x));
             }
-            let value = Lagrangian::value::<J2>(model, &lifted, &moved);
+            let value = lagrangian(model, &lifted, &moved);
             for (d, entries) in out[row..].iter_mut().take(JET_DIRECTIONS).enumerate() {
                 let entries = entries[column..].iter_mut().take(JET_DIRECTIONS);
                 let slope = value.partial(d);
@@ -536,6 +595,19 @@ pub fn product(a: &Matrix, x: &[f64]) -> Vec<f64> {
 pub fn largest(x: &[f64]) -> f64 {
     let size = |x: &f64| if x.is_nan() { f64::INFINITY } else { x.abs() };
     x.iter().map(size).fold(0.0, f64::max)
+}
+
+pub fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Asserts that positions, attitudes and momenta differ by no more than `tolerance`, momenta relative to their norm.
+#[track_caller]
+pub fn assert_same(a: &State<Configuration>, b: &State<Configuration>, tolerance: f64) {
+    assert_close(&entries(&a.g), &entries(&b.g), tolerance);
+    let momenta = b.mu.coordinates();
+    assert_close(&a.mu.coordinates(), &momenta, tolerance * norm(&momenta));
+    assert!((a.t - b.t).abs() <= tolerance);
 }
 
 /// Asserts that no entry of `a` and `b` differs by more than `tolerance`.

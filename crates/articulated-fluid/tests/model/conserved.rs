@@ -1,11 +1,12 @@
 //! What the continuous flow keeps, the places of joints and centres, and the same state on $SE(3) \times SO(3)^n$.
 
-use articulated_fluid::OnSe3;
+use articulated_fluid::Configuration;
 use dvi::DiscreteLagrangian;
-use lie::{Jet, RealGroup, SE3, Vec3, VectorSpace};
+use lie::{Jet, Power, RealGroup, SE3, Vec3, VectorSpace};
 use proptest::prelude::*;
 
 use crate::common::*;
+use crate::on_se3::OnSe3;
 
 /// $\frac12 \langle \mu, \xi \rangle + U$, $p_x$ and $x \times p_x + \sum_i R_i p_i$ along the flow.
 fn along_the_flow(sample: &Sample) -> [J; 7] {
@@ -13,9 +14,9 @@ fn along_the_flow(sample: &Sample) -> [J; 7] {
     let (xi, _) = velocity_and_force::<J>(&sample.model, &g, &mu);
     let pairs = mu.coordinates().into_iter().zip(xi.coordinates());
     let twice = pairs.fold(J::constant(0.0), |sum, (p, x)| sum + p * x);
-    let (px, orbital) = (mu.1.vec3(), g.1.vec3().cross(mu.1.vec3()));
-    let spins = g.2.iter().zip(mu.2.iter()).map(|(r, p)| r.rotate(p.vec3()));
-    let angular = spins.fold(orbital + g.0.rotate(mu.0.vec3()), |sum, spin| sum + spin);
+    let (x, px) = (g.1[0].vec3(), mu.1[0].vec3());
+    let spins = g.0.iter().zip(mu.0.iter()).map(|(r, p)| r.rotate(p.vec3()));
+    let angular = spins.fold(x.cross(px), |sum, spin| sum + spin);
     let ([a, b, c], [d, e, f]) = (px.0, angular.0);
     let energy = twice * J::constant(0.5) + sample.potential(&g);
     [energy, a, b, c, d, e, f]
@@ -46,10 +47,9 @@ proptest! {
         let xi = sample.model.velocity(&state).expect("the model's state");
         // Rounding times the condition of the inertia.
         assert_close(&xi.coordinates(), &sample.xi.coordinates(), 1e-12);
-        let rates = core::iter::once(&sample.xi.0).chain(sample.xi.2.iter());
-        let moving = bodies.iter().zip(sample.centre_velocities()).zip(attitudes(&sample.g));
+        let moving = bodies.iter().zip(sample.centre_velocities()).zip(sample.g.0.iter());
         let kinetic: f64 = moving
-            .zip(rates)
+            .zip(sample.xi.0.iter())
             .map(|(((body, v), r), w)| (r.inverse_rotate(v), w.vec3(), body))
             .map(|(v, w, body)| (v.dot(body.mass * v) + w.dot(body.inertia * w)) / 2.0)
             .sum();
@@ -63,9 +63,8 @@ proptest! {
         let centres: Vec<_> = model.centre_positions(g);
         let at: Vec<_> = model.joint_positions(g);
         prop_assert_eq!((centres.len(), at.len()), (joints.len() + 1, joints.len()));
-        prop_assert_eq!(centres[0], g.1.vec3());
-        let r = attitudes(g);
-        let on = |body: usize, point: Vec3| centres[body] + r[body].rotate(point);
+        prop_assert_eq!(centres[0], g.1[0].vec3());
+        let on = |body: usize, point: Vec3| centres[body] + g.0[body].rotate(point);
         let of_parents: Vec<_> = joints.iter().map(|j| on(j.parent, j.at_parent)).collect();
         let of_children: Vec<_> = joints.iter().map(|j| on(j.child, j.at_child)).collect();
         // Rounding of lengths up to 20.
@@ -100,20 +99,23 @@ proptest! {
     fn the_discrete_lagrangian_on_se3_is_the_same_function(sample in any_sample()) {
         const H: f64 = 0.1;
         let Sample { model, g, f, .. } = &sample;
-        let direct = DiscreteLagrangian::value::<f64>(model, g, f, H);
+        let direct = action(model, g, f, H);
+        let pose = |g: &Configuration, x: Vec3| (SE3::new(g.0[0], x), Power::new(g.0[1..].to_vec()));
         let on_se3 = |translation: Vec3| {
-            let g = (SE3::new(g.0, g.1.vec3()), g.2.clone());
-            let f = (SE3::new(f.0, translation), f.2.clone());
+            let (g, f) = (pose(g, g.1[0].vec3()), pose(f, translation));
             let end = lie::LieGroup::compose(&g, &f).0.translation;
-            (OnSe3(model.clone()).value::<f64>(&g, &f, H), end)
+            (OnSe3(model.clone()).value::<f64>(at_zero(), &g, &f, H), end)
         };
-        let (value, end) = on_se3(g.0.inverse_rotate(f.1.vec3()));
+        let (x, dx) = (g.1[0].vec3(), f.1[0].vec3());
+        let back = g.0[0].inverse_rotate(dx);
+        let (value, end) = on_se3(back);
         // Rounding of a quadratic form up to 1e3.
         assert_close(&[value], &[direct], 3e-12);
-        assert_close(&end.0, &(g.1.vec3() + f.1.vec3()).0, 1e-14);
+        assert_close(&end.0, &(x + dx).0, 1e-14);
         let lifted = OnSe3(model.clone()).value::<J>(
-            &(SE3::new(g.0, g.1.vec3()), g.2.clone()).lift(),
-            &(SE3::new(f.0, g.0.inverse_rotate(f.1.vec3())), f.2.clone()).lift(),
+            at_zero(),
+            &pose(g, x).lift(),
+            &pose(f, back).lift(),
             J::constant(H),
         );
         assert_close(&[lifted.value()], &[value], 3e-12);

@@ -1,8 +1,8 @@
 //! The derivatives (29)–(33) of the discrete Lagrangian (22) against dual numbers, differences and invariance.
 
 use articulated_fluid::Configuration;
-use dvi::{DiscreteLagrangian, Lagrangian};
-use lie::{JET_DIRECTIONS, Jet, LieGroup, R3, SO3, Vec3, VectorSpace};
+use dvi::System;
+use lie::{JET_DIRECTIONS, Jet, LieGroup, SO3, Vec3, VectorSpace};
 use proptest::prelude::*;
 
 use crate::common::*;
@@ -18,9 +18,8 @@ fn numbers(mu: &Momentum<J>) -> Vec<f64> {
 
 /// The size of what the sums of (29)–(33) are made of, times $h$: the rounding is relative to it.
 fn scale(sample: &Sample) -> f64 {
-    let turns = core::iter::once(&sample.f.0).chain(sample.f.2.iter());
-    let turns = turns.map(|f| f.minus_identity().frobenius());
-    30.0 * turns.fold(sample.f.1.vec3().norm(), f64::max)
+    let turns = sample.f.0.iter().map(|f| f.minus_identity().frobenius());
+    30.0 * turns.fold(sample.f.1[0].vec3().norm(), f64::max)
 }
 
 /// The size of the weights' and the elastic joints' part, times $h$: forces times lengths, and potentials.
@@ -55,7 +54,7 @@ proptest! {
         const STEP: f64 = 1e-5;
         const TOLERANCE: f64 = 3e-8;
         let Sample { model, g, f, .. } = &sample;
-        let value = |g: &Configuration, f: &Configuration| DiscreteLagrangian::value(model, g, f, 1.0);
+        let value = |g: &Configuration, f: &Configuration| action(model, g, f, 1.0);
         let derivatives = closed(model, g, f, 1.0);
         let dim = derivatives.d_f.dim();
         let mut differences = [vec![], vec![]];
@@ -90,50 +89,47 @@ proptest! {
     #[test]
     fn the_position_enters_by_the_weight_alone(sample in any_sample(), x in vector(1e6)) {
         let Sample { model, g, f, .. } = &sample;
-        let elsewhere = (g.0, R3::from(x), g.2.clone());
+        let elsewhere = (g.0.clone(), alone(x));
         let (here, there) = (closed(model, g, f, H), closed(model, &elsewhere, f, H));
         prop_assert_eq!(here.d_f, there.d_f);
         prop_assert_eq!(&here.d_g, &there.d_g);
-        let value = |g| DiscreteLagrangian::value(model, g, f, H);
+        let value = |g| action(model, g, f, H);
         if sample.floats() {
-            prop_assert_eq!(here.d_g.1.vec3(), Vec3::zero());
+            prop_assert_eq!(here.d_g.1[0].vec3(), Vec3::zero());
             prop_assert_eq!(value(g), value(&elsewhere));
         }
         let force = sample.force();
-        assert_close(&here.d_g.1.0, &(force * H).0, 1e-15 * H * force.norm());
+        assert_close(&here.d_g.1[0].0, &(force * H).0, 1e-15 * H * force.norm());
         // Rounding of forces times the way, and of what cancels in the value.
-        let work = force.dot(x - g.1.vec3()) * H;
+        let work = force.dot(x - g.1[0].vec3()) * H;
         let size = value(g).abs() + H * (force.norm() * x.norm() + elastic(&sample));
         assert_close(&[value(&elsewhere) - value(g)], &[work], 1e-15 * size);
-        let cyclic = if sample.floats() { 3..6 } else { 0..0 };
-        prop_assert_eq!(DiscreteLagrangian::cyclic(model), cyclic.clone());
-        prop_assert_eq!(Lagrangian::cyclic(model), cyclic);
-        let keeping = model.clone().keep_translation();
-        prop_assert!(DiscreteLagrangian::cyclic(&keeping).is_empty());
+        let cyclic = if sample.floats() { translation(sample.bodies.len()) } else { 0..0 };
+        prop_assert_eq!(System::cyclic(model), cyclic);
     }
 
     #[test]
     fn a_rotation_of_the_whole_system_and_of_gravity_changes_nothing(sample in any_sample(), q in attitude()) {
         let Sample { model, g, f, .. } = &sample;
         let whole = |r: &SO3| q.compose(r);
-        let rotated = (whole(&g.0), R3::from(q.rotate(g.1.vec3())), g.2.iter().map(whole).collect());
-        let carried = (f.0, R3::from(q.rotate(f.1.vec3())), f.2.clone());
+        let rotated = (g.0.iter().map(whole).collect(), alone(q.rotate(g.1[0].vec3())));
+        let carried = (f.0.clone(), alone(q.rotate(f.1[0].vec3())));
         let mut turned = sample.clone();
         if let Some((gravity, _)) = &mut turned.weight {
             *gravity = q.rotate(*gravity);
         }
-        let before = DiscreteLagrangian::value(model, g, f, H);
-        let after = DiscreteLagrangian::value(&turned.rebuilt().model, &rotated, &carried, H);
+        let before = action(model, g, f, H);
+        let after = action(&turned.rebuilt().model, &rotated, &carried, H);
         // Rounding of a quadratic form.
         let (size, weighs) = (scale(&sample), weighs(&sample));
         let tolerance = (1e-16 * size * size + 1e-15 * weighs) / H;
         assert_close(&[after], &[before], tolerance);
         // Its derivative at the identity: the moments on all attitudes balance those of the displaced momentum and the weights.
         let derivatives = closed(model, g, f, H);
-        let moments = g.2.iter().zip(derivatives.d_g.2.iter()).map(|(r, d)| r.rotate(d.vec3()));
-        let moment = moments.fold(g.0.rotate(derivatives.d_g.0.vec3()), |sum, m| sum + m);
-        let moment = moment + g.1.vec3().cross(derivatives.d_g.1.vec3());
-        let displaced = f.1.vec3().cross(derivatives.d_f.1.vec3());
+        let moments = g.0.iter().zip(derivatives.d_g.0.iter()).map(|(r, d)| r.rotate(d.vec3()));
+        let pulled = g.1[0].vec3().cross(derivatives.d_g.1[0].vec3());
+        let moment = moments.fold(pulled, |sum, m| sum + m);
+        let displaced = f.1[0].vec3().cross(derivatives.d_f.1[0].vec3());
         assert_close(&moment.0, &(sample.moment() * H - displaced).0, tolerance);
     }
 }

@@ -3,10 +3,10 @@
 use articulated_fluid::planar::{PlanarBody, PlanarConfiguration, Plane};
 use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
 use dvi::{Lagrangian, State};
-use lie::{AlgebraOver, LieGroup, Mat3, Power, Rn, SO2, SO3, Tangent, Vec3};
+use lie::{AlgebraOver, LieGroup, Mat3, Rn, SO2, SO3, Tangent, Vec3};
 use proptest::prelude::*;
 
-use crate::common::{spd, stiffnesses};
+use crate::common::{alone, spd, stiffnesses};
 
 /// A tree in the plane $z = 0$, body by body, each with the frame and the motion that it is given.
 #[derive(Clone, Debug)]
@@ -78,8 +78,7 @@ impl Flat {
             turned.compose(&part.frame.inverse())
         };
         let x = self.world.rotate(Vec3(self.position));
-        let tails = self.parts[1..].iter().map(attitude).collect();
-        (attitude(&self.parts[0]), x.into(), tails)
+        (self.parts.iter().map(attitude).collect(), alone(x))
     }
 
     pub fn velocity(&self) -> AlgebraOver<Configuration, f64> {
@@ -88,8 +87,7 @@ impl Flat {
             Tangent::from(spin)
         };
         let velocity = self.world.rotate(flat(self.velocity));
-        let tails = self.parts[1..].iter().map(rate).collect();
-        (rate(&self.parts[0]), velocity.into(), tails)
+        (self.parts.iter().map(rate).collect(), alone(velocity))
     }
 
     pub fn state(&self) -> State<Configuration> {
@@ -203,8 +201,8 @@ pub fn any_flat() -> impl Strategy<Value = Flat> {
 pub fn displacement(bodies: usize, size: f64) -> impl Strategy<Value = PlanarConfiguration> {
     let angles = prop::collection::vec(-size..size, bodies);
     (angles, prop::array::uniform2(-size..size)).prop_map(|(angles, x)| {
-        let turns: Vec<SO2> = angles.into_iter().map(SO2::from_angle).collect();
-        (turns[0], Rn(x), Power::new(turns[1..].to_vec()))
+        let turns = angles.into_iter().map(SO2::from_angle);
+        (turns.collect(), alone(Rn(x)))
     })
 }
 

@@ -7,7 +7,7 @@ use lie::lanes::{self, InstructionSet, Job};
 use lie::{Batch, LieGroup, Over, RealGroup, VectorSpace};
 use proptest::prelude::*;
 
-use crate::common::{Shape, assert_close, largest, sample_of, spoil};
+use crate::common::{Shape, assert_close, at_zero, largest, sample_of, spoil};
 use crate::flat_trees::{any_flat, displacement};
 
 /// As many as the widest register has items.
@@ -30,10 +30,10 @@ impl<C: ContinuousSystem> Job for Evaluate<'_, C> {
             }
             spoil(&mut xi);
             spoil(&mut tau);
-            let mut workspace = system.workspace::<S>(&g);
+            let mut work = C::Workspace::<S>::default();
             S::run(
                 #[inline(always)]
-                || system.velocity_and_force(S::zero(), &g, &mu, &mut workspace, &mut xi, &mut tau),
+                || system.velocity_and_force(at_zero(), &g, &mu, &mut work, &mut xi, &mut tau),
             );
             let coordinates = [xi.coordinates(), tau.coordinates()].concat();
             let item = |i: usize| coordinates.iter().map(|x| S::items(&[*x])[i]).collect();
@@ -114,8 +114,8 @@ proptest! {
     ) {
         let (model, State { g, mu, .. }) = flat.planar();
         let mut xi = g.zero_algebra();
-        let mut workspace = model.workspace::<f64>(&g);
-        model.velocity_and_force(0.0, &g, &mu, &mut workspace, &mut xi, &mut g.zero_dual());
+        let mut work = Default::default();
+        model.velocity_and_force::<f64>(at_zero(), &g, &mu, &mut work, &mut xi, &mut g.zero_dual());
         assert_same(&model, &on_the_way(&model, (&g, &f), &xi));
     }
 }

@@ -2,13 +2,16 @@
 //! share is compiled once.
 
 mod acceleration_form;
+mod by_duals;
 mod common;
 mod conserved;
 mod continuous_model;
 mod discrete_derivatives;
 mod flat_trees;
+mod forced;
 mod lanes;
 mod model_errors;
+mod on_se3;
 mod paper_formulas;
 mod planar;
 mod planar_plane;

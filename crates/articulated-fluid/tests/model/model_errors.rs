@@ -1,8 +1,8 @@
 //! What is no model is refused, with the place of the fault.
 
-use articulated_fluid::{ArticulatedBody, Body, Joint, ModelError};
+use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, ModelError};
 use dvi::{Lagrangian, ShapeError, State};
-use lie::{Cotangent, LieGroup, Mat3, Power, SO3, Vec3};
+use lie::{Cotangent, LieGroup, Mat3, Power, R3, SO3, Vec3};
 use proptest::prelude::*;
 
 use crate::common::*;
@@ -204,53 +204,73 @@ fn a_stiffness_that_is_none_is_refused() {
     );
 }
 
+/// Of so many bodies, all attitudes the identity.
+fn configuration(bodies: usize) -> Configuration {
+    (
+        Power::new(vec![SO3::identity(); bodies]),
+        alone(R3::identity()),
+    )
+}
+
 #[test]
 fn a_state_with_another_number_of_bodies_is_refused() {
     let joints = [joint(0, 1), joint(0, 2)];
     let model = ArticulatedBody::new(&[sound(); 3], &joints).expect("a model");
     let state = |attitudes: usize, momenta: usize| State {
         t: 0.0,
-        g: (
-            SO3::identity(),
-            lie::R3::identity(),
-            Power::new(vec![SO3::identity(); attitudes]),
-        ),
+        g: configuration(attitudes),
         mu: (
-            Cotangent::zero(),
-            Cotangent::zero(),
             Power::new(vec![Cotangent::zero(); momenta]),
+            alone(Cotangent::zero()),
         ),
     };
-    for (attitudes, momenta, found) in [(0, 0, 0), (1, 1, 1), (3, 3, 3), (3, 2, 3), (2, 4, 4)] {
-        let refused = ModelError::Shape { expected: 2, found };
+    for (attitudes, momenta, found) in [
+        (0, 0, 0),
+        (1, 1, 1),
+        (2, 2, 2),
+        (4, 4, 4),
+        (4, 3, 4),
+        (3, 5, 5),
+    ] {
+        let refused = ModelError::Shape { expected: 3, found };
         let state = state(attitudes, momenta);
         assert_eq!(model.conserved(&state), Err(refused.clone()));
         assert_eq!(model.velocity(&state), Err(refused));
     }
-    assert!(model.conserved(&state(2, 2)).is_ok());
-    assert!(model.conserved(&state(2, 1)).is_err());
+    assert!(model.conserved(&state(3, 3)).is_ok());
+    assert!(model.conserved(&state(3, 2)).is_err());
+    for translations in [0, 2] {
+        let (mut nowhere, mut unmoved) = (state(3, 3), state(3, 3));
+        nowhere.g.1 = Power::new(vec![R3::identity(); translations]);
+        unmoved.mu.1 = Power::new(vec![Cotangent::zero(); translations]);
+        for state in [nowhere, unmoved] {
+            assert!(model.conserved(&state).is_err());
+            assert!(model.velocity(&state).is_err());
+        }
+    }
 }
 
 #[test]
 fn a_velocity_of_another_number_of_bodies_is_refused() {
     let joints = [joint(0, 1), joint(0, 2)];
     let model = ArticulatedBody::new(&[sound(); 3], &joints).expect("a model");
-    let configuration = |tails: usize| {
-        let tails = Power::new(vec![SO3::identity(); tails]);
-        (SO3::identity(), lie::R3::identity(), tails)
-    };
-    for (tails, rates) in [(2, 1), (2, 3), (1, 1), (3, 3)] {
-        let refused = match tails {
-            2 => ShapeError::Velocity {
+    for (attitudes, rates) in [(3, 2), (3, 4), (2, 2), (4, 4), (0, 0)] {
+        let refused = match attitudes {
+            3 => ShapeError::Velocity {
                 expected: 12,
-                found: 6 + 3 * rates,
+                found: 3 + 3 * rates,
             },
             _ => ShapeError::Configuration,
         };
         let xi = configuration(rates).zero_algebra();
-        let state = model.state(0.0, configuration(tails), &xi);
+        let state = model.state(0.0, configuration(attitudes), &xi);
         assert_eq!(state, Err(refused));
     }
+    let mut twice = configuration(3);
+    twice.1 = Power::new(vec![R3::identity(); 2]);
+    let xi = twice.zero_algebra();
+    let state = model.state(0.0, twice, &xi);
+    assert_eq!(state, Err(ShapeError::Configuration));
 }
 
 #[test]

@@ -2,11 +2,13 @@
 
 use articulated_fluid::planar::{NotPlanar, NotPlanarCause, Plane};
 use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, Viewed};
-use dvi::{ContinuousSystem, Gauss, Integrator, Lagrangian, State, StepError, Variational};
-use lie::{LieGroup, Mat3, SO3, Tangent, Vec3, VectorSpace};
+use dvi::{
+    Cause, Context, ContinuousSystem, Gauss, Integrator, Lagrangian, State, StepError, Variational,
+};
+use lie::{LieGroup, Mat3, Power, SO3, Tangent, Vec3, VectorSpace};
 use proptest::prelude::*;
 
-use crate::common::{Velocity, assert_close};
+use crate::common::{Velocity, alone, assert_close};
 use crate::flat_trees::*;
 
 /// How far one thing is tilted out of the plane.
@@ -104,11 +106,11 @@ fn what_is_off_the_plane_is_named_and_measured() {
     });
     assert_refused(SpinOffPlane, 2, TILT, |parts, flat| {
         let across = flat.parts[2].frame.rotate(Vec3([TILT, 0.0, 0.0]));
-        parts.xi.2[1] = parts.xi.2[1] + across.into();
+        parts.xi.0[2] = parts.xi.0[2] + across.into();
     });
     assert_refused(VelocityOffPlane, 0, TILT / 0.63, |parts, flat| {
         let along = flat.world.rotate(Vec3([0.0, 0.0, TILT]));
-        parts.xi.1 = parts.xi.1 + along.into();
+        parts.xi.1[0] = parts.xi.1[0] + along.into();
     });
     assert_refused(GravityOffPlane, 0, 0.5 * TILT, |parts, flat| {
         parts.gravity += flat.world.rotate(Vec3([0.0, 0.0, TILT]));
@@ -172,11 +174,8 @@ fn attached(size: f64, off: f64, spin: [f64; 3]) -> Result<Plane, NotPlanar> {
         at_child: Vec3([0.5, 0.0, off]),
     };
     let model = ArticulatedBody::new(&[sized(size), sized(1.0)], &[joint]).expect("a model");
-    let xi = (
-        Tangent::zero(),
-        Tangent::zero(),
-        core::iter::once(Tangent(spin)).collect(),
-    );
+    let rates = vec![Tangent::zero(), Tangent(spin)];
+    let xi = (Power::new(rates), alone(Tangent::zero()));
     Plane::find(
         &model,
         &model.state(0.0, model.aligned(), &xi).expect("a state"),
@@ -203,7 +202,7 @@ fn a_slow_spin_of_a_fast_body_is_judged_as_a_spin() {
     for (speed, rate) in [(1.0, 1.0), (1e3, 1.0), (1e3, 0.0)] {
         let found = |off: f64| {
             let omega = Tangent([off, 0.0, rate]);
-            let xi = (omega, Tangent([speed, 0.0, 0.0]), [].into_iter().collect());
+            let xi = (alone(omega), alone(Tangent([speed, 0.0, 0.0])));
             Plane::find(
                 &model,
                 &model.state(0.0, model.aligned(), &xi).expect("a state"),
@@ -237,8 +236,7 @@ fn falling(azimuth: f64, mut check: impl FnMut(Result<Plane, NotPlanar>)) {
             let model = model.with_gravity(Vec3([0.0, 0.0, -9.81]), &net);
             let model = model.expect("a weight");
             let mut g = model.aligned();
-            g.0 = attitude;
-            g.2.iter_mut().for_each(|r| *r = attitude);
+            g.0.fill(attitude);
             let mu = g.zero_dual();
             check(Plane::find(&model, &State { t: 0.0, g, mu }));
         }
@@ -280,11 +278,8 @@ fn weights_that_balance_have_no_part_along_the_normal() {
             .with_gravity(Vec3([0.0, 0.0, -9.81]), &[-3.0, 1.0, 1.0, 1.0])
             .expect("a weight");
         let spin = |rate: f64| Tangent([0.0, 0.0, rate]);
-        let xi = (
-            spin(1.0),
-            Tangent::zero(),
-            (0..3).map(|_| spin(2.0)).collect(),
-        );
+        let rates = [1.0, 2.0, 2.0, 2.0].map(spin);
+        let xi = (Power::new(rates.to_vec()), alone(Tangent::zero()));
         Plane::find(
             &model,
             &model.state(0.0, model.aligned(), &xi).expect("a state"),
@@ -300,18 +295,21 @@ fn weights_that_balance_have_no_part_along_the_normal() {
 fn a_state_of_another_model_and_one_not_finite_are_refused() {
     let (model, state) = (fish().model(), fish().state());
     let mut short = state.clone();
-    short.g.2 = short.g.2.iter().take(1).copied().collect();
+    short.g.0 = short.g.0.iter().take(2).copied().collect();
     let mut lost = state.clone();
-    lost.mu.1[0] = f64::NAN;
+    lost.mu.1[0][0] = f64::NAN;
     for state in [short, lost] {
         let error = Plane::find(&model, &state).expect_err("no state");
         assert_eq!(error.what, NotPlanarCause::State);
         let plane = fish().plane();
-        let mut integrator = Viewed::new(plane.clone(), Variational::with_inertia(plane.model()));
+        let mut integrator = Viewed::new(plane.clone(), Variational::new(plane.model()));
         let mut stepped = state.clone();
         assert!(matches!(
             integrator.step(&mut stepped, 1e-3),
-            Err(StepError::Misfit { .. })
+            Err(StepError {
+                cause: Cause::Misfit,
+                ..
+            })
         ));
         assert!(integrator.peek(&state, 1e-3).is_err());
     }
@@ -392,7 +390,7 @@ fn what_the_motion_keeps_is_the_same_in_the_plane() {
     let flat = moved(fish());
     let (full, plane, mut state) = (flat.model(), flat.plane(), flat.state());
     let model = plane.model();
-    let mut integrator = Viewed::new(plane.clone(), Gauss::<_, 4>::new(plane.model()));
+    let mut integrator = Viewed::new(plane.clone(), Gauss::new::<4>(plane.model()));
     let start = full.conserved(&state).expect("finite");
     for _ in 0..200 {
         integrator.step(&mut state, 0.05).expect("a step");
@@ -403,16 +401,17 @@ fn what_the_motion_keeps_is_the_same_in_the_plane() {
     assert_close(&found.linear.0, &start.linear.0, 1e-13);
     let State { g, mu, t } = plane.project(&state);
     let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
-    let mut workspace = ContinuousSystem::workspace::<f64>(&model, &g);
-    model.velocity_and_force::<f64>(t, &g, &mu, &mut workspace, &mut xi, &mut tau);
+    let (at, mut work) = (Context::new(t, &[]), Default::default());
+    model.velocity_and_force::<f64>(at, &g, &mu, &mut work, &mut xi, &mut tau);
     assert_close(
         &[model.energy(t, &g, &xi).expect("a state")],
         &[found.energy],
         1e-13,
     );
     assert_close(&[found.energy], &[start.energy], 1e-9);
-    let spins: f64 = mu.0[0] + mu.2.iter().map(|p| p[0]).sum::<f64>();
-    let orbital = g.1[0] * mu.1[1] - g.1[1] * mu.1[0];
+    let spins: f64 = mu.0.iter().map(|p| p[0]).sum();
+    let (x, p) = (g.1[0].0, mu.1[0].0);
+    let orbital = x[0] * p[1] - x[1] * p[0];
     // About the point of the plane nearest the origin, which the offset along the normal does not change.
     assert_close(
         &[spins + orbital],
@@ -424,7 +423,7 @@ fn what_the_motion_keeps_is_the_same_in_the_plane() {
 #[test]
 fn a_step_refused_or_seen_ahead_leaves_all_as_it_was() {
     let (plane, start) = (fish().plane(), fish().state());
-    let made = || Viewed::new(plane.clone(), Gauss::<_, 4>::new(plane.model()));
+    let made = || Viewed::new(plane.clone(), Gauss::new::<4>(plane.model()));
     let (mut plain, mut disturbed) = (made(), made());
     let (mut a, mut b) = (start.clone(), start.clone());
     for _ in 0..20 {
@@ -449,11 +448,14 @@ fn a_step_refused_or_seen_ahead_leaves_all_as_it_was() {
     made().step(&mut first, 0.05).expect("a step");
     assert_close(&again.mu.coordinates(), &first.mu.coordinates(), 1e-12);
     let mut off = start.clone();
-    off.g.0 = off.g.0.compose(&SO3::exp(&Tangent([1e-6, 0.0, 0.0])));
+    off.g.0[0] = off.g.0[0].compose(&SO3::exp(&Tangent([1e-6, 0.0, 0.0])));
     let before = off.clone();
     assert!(matches!(
         disturbed.step(&mut off, 0.05),
-        Err(StepError::Misfit { .. })
+        Err(StepError {
+            cause: Cause::Misfit,
+            ..
+        })
     ));
     assert_eq!(off, before);
 }
@@ -471,8 +473,8 @@ fn no_part_out_of_the_plane_is_too_small() {
             refused(&|parts| parts.bodies[2].inertia += coupling),
             refused(&|parts| parts.joints[0].at_child += out),
             refused(&|parts| parts.joints[1].at_parent += out),
-            refused(&|parts| parts.xi.2[1][0] = size),
-            refused(&|parts| parts.xi.1[2] = size),
+            refused(&|parts| parts.xi.0[2][0] = size),
+            refused(&|parts| parts.xi.1[0][2] = size),
             refused(&|parts| parts.gravity += out),
         ];
         let expected = [

@@ -1,28 +1,28 @@
-//! Variational Gauss integrators of order `2 S` on a Lie group.
+//! Variational Gauss integrators of order $2 s$ on a Lie group.
 
 mod extrapolation;
 mod newton;
 mod predictor;
 mod solve;
 mod stages;
+mod stepper;
 mod sweep;
 mod tableau;
 mod update;
 mod work;
 
-use core::marker::PhantomData;
-
 use lie::lanes::InstructionSet;
-use lie::{Cayley, LieGroup, Retraction, VectorSpace};
+use lie::{Cayley, Retraction};
 
+use crate::step::{check, check_momentum, finite};
 use crate::{
-    ContinuousSystem, FirstVariation, Integrator, State, StepError, StepReport, Variation,
+    Cause, ContinuousSystem, FirstVariation, Integrator, State, StepError, StepReport, Variation,
 };
-use solve::{Failure, Limits};
+use stepper::{MakeStepper, Stepper, stepper};
 use tableau::Tableau;
-use work::{Stepper, stepper};
+use work::Limits;
 
-/// A variational integrator of order `2 S` by Gauss collocation with `S` stages, `S` from 1 to 8.
+/// A variational integrator of order $2 s$ by Gauss collocation with $s$ stages, from 1 to 8.
 ///
 /// It is the extremum of the discrete Lagrangian
 /// $L_d(g_k, f) = \operatorname{ext} h \sum_i b_i L(t_i, g_k \tau(c_i), \mathrm d\tau_{c_i} \dot c_i)$ over the rates $\dot c_i$ with
@@ -45,21 +45,24 @@ use work::{Stepper, stepper};
 /// identity with compensation (but where $x \times p$ outweighs the rest, far from the origin), and so are the numbers of the configuration. After the first step none allocates, but for the first that needs Newton's method.
 ///
 /// ```
-/// use dvi::{Gauss, Integrator, Lagrangian};
+/// use dvi::{Context, Gauss, Integrator, Lagrangian, System};
 /// use lie::{Rn, Scalar, Tangent};
 ///
 /// /// A particle of 1 kg on a spring of 1 N/m.
 /// struct Spring;
 ///
-/// impl Lagrangian for Spring {
+/// impl System for Spring {
 ///     type Group = Rn<1>;
-///     fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+/// }
+///
+/// impl Lagrangian for Spring {
+///     fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
 ///         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
 ///     }
 /// }
 ///
 /// let mut state = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
-/// let mut integrator = Gauss::<_, 4>::new(Spring.hamiltonian());
+/// let mut integrator = Gauss::new::<4>(Spring.hamiltonian());
 /// assert_eq!(integrator.order(), 8);
 /// for _ in 0..10 {
 ///     integrator.step(&mut state, 0.5)?;
@@ -67,47 +70,51 @@ use work::{Stepper, stepper};
 /// assert!((state.g.0[0] - 5.0_f64.cos()).abs() < 1e-8);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
-pub struct Gauss<C: ContinuousSystem, const S: usize, R = Cayley> {
+pub struct Gauss<C: ContinuousSystem> {
     system: C,
     tableau: &'static Tableau,
     limits: Limits,
     instructions: InstructionSet,
     steps: u64,
+    /// Makes the work for the retraction that was chosen.
+    make: MakeStepper<C>,
     work: Option<Box<dyn Stepper<C>>>,
-    retraction: PhantomData<R>,
 }
 
-impl<C: ContinuousSystem + 'static, const S: usize> Gauss<C, S> {
-    /// The integrator of a system, in the Cayley map's chart; for a Lagrangian, `Gauss::<_, 4>::new(top.hamiltonian())`.
-    pub fn new(system: C) -> Self {
+impl<C: ContinuousSystem + 'static> Gauss<C> {
+    /// The integrator of `S` stages of a system, in the Cayley map's chart; for a Lagrangian, `Gauss::new::<4>(top.hamiltonian())`.
+    ///
+    /// Less than one stage, or more than eight, do not compile.
+    pub fn new<const S: usize>(system: C) -> Self {
         const { assert!(S >= 1 && S <= 8, "Gauss has from 1 to 8 stages") };
+        Self::of(system, S)
+    }
+
+    /// The integrator of so many stages, known at run time; none of less than one or more than eight.
+    pub fn with_stages(system: C, stages: usize) -> Option<Self> {
+        (1..=8).contains(&stages).then(|| Self::of(system, stages))
+    }
+
+    /// Of 1 to 8 stages.
+    pub(crate) fn of(system: C, stages: usize) -> Self {
         Self {
             system,
-            tableau: Tableau::gauss(S),
+            tableau: Tableau::gauss(stages),
             limits: Limits {
                 tolerance: 0.0,
                 sweeps_only: false,
             },
-            instructions: InstructionSet::widest(S),
+            instructions: InstructionSet::widest(stages),
             steps: 0,
+            make: stepper::<C, Cayley>,
             work: None,
-            retraction: PhantomData,
         }
     }
-}
 
-impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R> {
     /// The same in another retraction's chart: another method of the same order.
-    pub fn with_retraction<Q: Retraction>(self) -> Gauss<C, S, Q> {
-        Gauss {
-            system: self.system,
-            tableau: self.tableau,
-            limits: self.limits,
-            instructions: self.instructions,
-            steps: self.steps,
-            work: None,
-            retraction: PhantomData,
-        }
+    pub fn with_retraction<R: Retraction>(mut self) -> Self {
+        (self.make, self.work) = (stepper::<C, R>, None);
+        self
     }
 
     /// The largest error of a solved step that is left by iterating, estimated and relative; zero, the default, iterates to rounding.
@@ -139,90 +146,51 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Gauss<C, S, R
         &self.system
     }
 
-    fn check(&self, state: &State<C::Group>, h: f64) -> Result<(), StepError> {
-        let (step, t) = (self.steps, state.t);
-        if !(h.is_finite() && h != 0.0) {
-            return Err(StepError::InvalidStep { step, t, h });
-        }
-        if !self.system.fits(&state.g) {
-            return Err(StepError::Misfit { step, t });
-        }
-        let finite = t.is_finite() && state.g.is_finite() && state.mu.max_magnitude().is_finite();
-        finite
-            .then_some(())
-            .ok_or(StepError::NotFinite { step, t, h })
+    fn error(&self, state: &State<C::Group>, h: f64, cause: Cause) -> StepError {
+        cause.at((self.steps, state.t, h))
     }
 
     /// Solves the stages of a step; the state stays as it is.
-    fn solve(
-        &mut self,
-        state: &State<C::Group>,
-        h: f64,
-    ) -> Result<(StepReport, &mut dyn Stepper<C>), StepError> {
-        self.check(state, h)?;
+    fn solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, StepError> {
+        let solved = self.try_to_solve(state, h);
+        solved.map_err(|cause| self.error(state, h, cause))
+    }
+
+    fn try_to_solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, Cause> {
+        check(&self.system, state, h)?;
         let (system, tableau) = (&self.system, self.tableau);
-        let (step, t) = (self.steps, state.t);
+        let degenerate = || system.without_inertia(state.t, &state.g);
         let work = match self.work.take() {
             Some(work) if work.fits(&state.g) => work,
-            _ => match system.without_inertia(t, &state.g) {
-                Some(coordinate) => {
-                    return Err(StepError::Degenerate {
-                        step,
-                        t,
-                        coordinate,
-                    });
-                }
-                None => stepper::<C, R>(self.instructions, system, tableau, &state.g),
+            _ => match degenerate() {
+                Some(coordinate) => return Err(Cause::Degenerate { coordinate }),
+                None => (self.make)(self.instructions, tableau, &state.g),
             },
         };
         let work = self.work.insert(work);
-        if !work.shape().same_shape(&state.mu) {
-            let (expected, found) = (work.shape().dim(), state.mu.dim());
-            return Err(StepError::Shape {
-                step,
-                t,
-                expected,
-                found,
-            });
-        }
+        check_momentum(&state.mu, work.shape())?;
         let solved = work.solve((system, tableau), (state, h), self.limits);
-        let report = solved.map_err(|failure| match failure {
-            Failure::NotFinite => match system.without_inertia(t, &state.g) {
-                Some(coordinate) => StepError::Degenerate {
-                    step,
-                    t,
-                    coordinate,
-                },
-                None => StepError::NotFinite { step, t, h },
-            },
-            Failure::NotConverged(report, hint) => StepError::NotConverged {
-                step,
-                t,
-                h,
-                residual: report.residual,
-                iterations: report.iterations,
-                hint,
-            },
-        })?;
-        Ok((report, &mut **work))
+        solved.map_err(|cause| match degenerate() {
+            Some(coordinate) if cause == Cause::NotFinite => Cause::Degenerate { coordinate },
+            _ => cause,
+        })
     }
 
     /// Takes the step that was solved.
     fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Result<(), StepError> {
-        let (step, t) = (self.steps, state.t);
         let (system, work) = (&self.system, self.work.as_mut());
         let accepted = work.and_then(|work| work.accept(system, state, h));
-        accepted.ok_or(StepError::NotFinite { step, t, h })?;
+        accepted.ok_or_else(|| self.error(state, h, Cause::NotFinite))?;
         self.steps += 1;
         Ok(())
     }
 }
 
-impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Integrator for Gauss<C, S, R> {
+impl<C: ContinuousSystem + 'static> Integrator for Gauss<C> {
     type Group = C::Group;
 
     fn order(&self) -> u32 {
-        2 * S as u32
+        2 * self.tableau.nodes.len() as u32
     }
 
     /// In general not: the chart is centred at the step's start, and the same step backwards is another of the same order.
@@ -235,19 +203,17 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Integrator fo
     }
 
     fn step(&mut self, state: &mut State<C::Group>, h: f64) -> Result<StepReport, StepError> {
-        let (report, _) = self.solve(state, h)?;
+        let report = self.solve(state, h)?;
         self.accept(state, h)?;
         Ok(report)
     }
 
     fn peek(&mut self, state: &State<C::Group>, h: f64) -> Result<State<C::Group>, StepError> {
-        let step = self.steps;
-        let (_, work) = self.solve(state, h)?;
-        let (t, ahead) = (state.t, work.ahead((state, h)));
-        if !self.system.is_defined(ahead.t, &ahead.g) {
-            return Err(StepError::NotFinite { step, t, h });
-        }
-        ahead.if_finite(step, t, h)
+        self.solve(state, h)?;
+        let ahead = self.work.as_ref().map(|work| work.ahead((state, h)));
+        let defined = ahead.filter(|ahead| self.system.is_defined(ahead.t, &ahead.g));
+        let ahead = defined.ok_or(Cause::NotFinite).and_then(finite);
+        ahead.map_err(|cause| self.error(state, h, cause))
     }
 
     fn reset(&mut self) {
@@ -255,23 +221,20 @@ impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> Integrator fo
     }
 }
 
-impl<C: ContinuousSystem + 'static, const S: usize, R: Retraction> FirstVariation
-    for Gauss<C, S, R>
-{
+impl<C: ContinuousSystem + 'static> FirstVariation for Gauss<C> {
     fn step_varied(
         &mut self,
         state: &mut State<C::Group>,
         variations: &mut [Variation<C::Group>],
         h: f64,
     ) -> Result<StepReport, StepError> {
-        let (report, _) = self.solve(state, h)?;
+        let report = self.solve(state, h)?;
         let mut carried = variations.to_vec();
         if let Some(work) = &mut self.work {
             work.carry((&self.system, self.tableau), (state, h), &mut carried);
         }
         if !carried.iter().all(Variation::is_finite) {
-            let (step, t) = (self.steps, state.t);
-            return Err(StepError::NotFinite { step, t, h });
+            return Err(self.error(state, h, Cause::NotFinite));
         }
         self.accept(state, h)?;
         variations.clone_from_slice(&carried);

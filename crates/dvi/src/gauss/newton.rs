@@ -4,9 +4,9 @@ use lie::{Batch, Jet, LieGroup, Retraction, Scalar, VectorSpace};
 
 use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
-use crate::jets::{add_constant, for_each_chunk};
-use crate::linear::Factorisation;
-use crate::sizes::{Kinds, Weights};
+use crate::numerics::duals::{add_constant, for_each_chunk, lift};
+use crate::numerics::linear::Factorisation;
+use crate::numerics::sizes::{Kinds, Weights};
 use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
 
@@ -38,7 +38,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         dim * (2 * tableau.nodes.len() + 1)
     }
 
-    pub(super) fn new(system: &C, tableau: &Tableau, g: &C::Group) -> Self {
+    pub(super) fn new(tableau: &Tableau, g: &C::Group) -> Self {
         let kinds = Kinds::of(g);
         let mut kind_of = vec![0; g.zero_dual().dim()];
         for (run, kind) in &kinds.runs {
@@ -51,7 +51,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             h: 0.0,
             x: vec![0.0; dim],
             correction: vec![0.0; dim],
-            sweep: Sweep::new(system, tableau, &varied.g),
+            sweep: Sweep::new(tableau, &varied.g),
             weights: None,
             sizes: [0, 1, 2].map(|_| vec![0.0; kinds.count]),
             kind_of,
@@ -94,7 +94,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
 
     /// Factorises $1 - \Phi'$ at the iterate.
     pub(super) fn renew<R: Retraction>(&mut self, system: &C, state: &State<C::Group>, h: f64) {
-        self.set_state(state);
+        self.set_state(system, state);
         self.sweep.extra_force = None;
         let dim = self.x.len();
         for_each_chunk(dim, |first| {
@@ -160,7 +160,12 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         self.matrix.turns_over()
     }
 
-    fn set_state(&mut self, state: &State<C::Group>) {
+    fn set_state(&mut self, system: &C, state: &State<C::Group>) {
+        lift(
+            system.parameters(),
+            J::constant,
+            &mut self.varied.parameters,
+        );
         C::Group::convert_into::<f64, J>(&state.g, J::constant, &mut self.varied.g);
         self.varied.mu.set_zero();
         add_constant(&mut self.varied.mu, &state.mu);
@@ -176,6 +181,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
     /// $\Phi$ on the unknowns.
     fn map<R: Retraction>(&mut self, system: &C, t: f64, h: f64) {
         let (t, h) = (J::constant(t), J::constant(h));
+        self.sweep.set_parameters(&self.varied.parameters);
         self.sweep.start_at(&self.varied.g);
         self.sweep.read(&self.unknowns);
         self.sweep.run_from_end::<R>(system, (t, h));
@@ -202,7 +208,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         solved.write(&mut self.x);
         self.renew::<R>(system, state, h);
         for chunk in variations.chunks_mut(lie::JET_DIRECTIONS) {
-            self.varied.enter(state, chunk);
+            self.varied.enter((system.parameters(), state), chunk);
             self.sweep.extra_force = Some(self.varied.force.clone());
             self.start_from_iterate();
             self.map::<R>(system, state.t, h);

@@ -4,11 +4,10 @@ use lie::{Batch, Retraction, VectorSpace};
 
 use super::newton::SweepNewton;
 use super::sweep::Side;
-use super::tableau::Tableau;
-use super::work::Work;
-use crate::numbers::larger;
-use crate::sizes::relative_beside;
-use crate::{ContinuousSystem, Hint, State, StepReport};
+use super::work::{Limits, Method, Start, Work};
+use crate::numerics::numbers::larger;
+use crate::numerics::sizes::relative_beside;
+use crate::{Cause, ContinuousSystem, Hint, StepReport};
 
 /// Sweeps before the plain iteration is given up.
 const MAX_SWEEPS: u32 = 60;
@@ -45,21 +44,6 @@ const MEASURES_BELOW: f64 = 1e-4;
 /// The weight of a single block's mismatch, relative to its own momentum, beside that of its kind.
 const OF_BLOCK: f64 = 1e-7;
 
-/// Why a step was not solved.
-pub(super) enum Failure {
-    NotFinite,
-    NotConverged(StepReport, Hint),
-}
-
-/// How far a step is solved, and by what.
-#[derive(Clone, Copy)]
-pub(super) struct Limits {
-    /// See [`Gauss::with_tolerance`](super::Gauss::with_tolerance).
-    pub(super) tolerance: f64,
-    /// Refuses a step that the plain iteration does not solve: such steps do not pay.
-    pub(super) sweeps_only: bool,
-}
-
 /// How an iteration ended.
 enum Ended {
     Solved(StepReport),
@@ -87,18 +71,23 @@ impl Ended {
     }
 
     /// Of a step of size `h` that was not solved.
-    fn refusal(&self, h: f64) -> Failure {
+    fn refusal(&self, h: f64) -> Cause {
         let h = 0.5 * h;
         let hint = match self {
             Self::AnotherBranch(_) => Hint::AnotherBranch { h },
             _ => Hint::SmallerStep { h },
         };
-        Failure::NotConverged(self.report(), hint)
+        let StepReport {
+            iterations,
+            residual,
+        } = self.report();
+        Cause::NotConverged {
+            residual,
+            iterations,
+            hint,
+        }
     }
 }
-
-pub(super) type Method<'a, C> = (&'a C, &'a Tableau);
-pub(super) type Start<'a, C> = (&'a State<<C as ContinuousSystem>::Group>, f64);
 
 impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     pub(super) fn solve<R: Retraction>(
@@ -106,7 +95,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         method: Method<C>,
         start: Start<C>,
         limits: Limits,
-    ) -> Result<StepReport, Failure> {
+    ) -> Result<StepReport, Cause> {
         let tolerance = limits.tolerance;
         if self.noise_holds == 0 {
             self.sweep.forget_noise();
@@ -140,7 +129,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         method: Method<C>,
         start: Start<C>,
         tolerance: f64,
-    ) -> Result<Ended, Failure> {
+    ) -> Result<Ended, Cause> {
         let mut sweeps = 0;
         if self.long_steps == 0 {
             let report = match self.iterate::<R>(method, start, tolerance)? {
@@ -163,7 +152,8 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         &mut self,
         (system, tableau): Method<C>,
         (state, h): Start<C>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Cause> {
+        self.sweep.set_parameters(system.parameters());
         self.sweep.start_at(&state.g);
         self.sweep.forget_rounding();
         self.sweep.weigh(system, (state.t, &state.mu));
@@ -171,11 +161,11 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             .predictor
             .guess::<C, R>((system, tableau), (state, h), &mut self.sweep);
         if !known && !self.sweep.is_finite() {
-            return Err(Failure::NotFinite);
+            return Err(Cause::NotFinite);
         }
         self.sweep.evaluate::<R>(system, (state.t, h));
         if !known && !self.sweep.has_rates() && self.sweep.leaves_domain(system, (state.t, h)) {
-            return Err(Failure::NotFinite);
+            return Err(Cause::NotFinite);
         }
         Ok(())
     }
@@ -190,7 +180,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         method: Method<C>,
         (state, h): Start<C>,
         tolerance: f64,
-    ) -> Result<Ended, Failure> {
+    ) -> Result<Ended, Cause> {
         self.guess::<R>(method, (state, h))?;
         let system = method.0;
         self.sweep.round(Side::Start);
@@ -293,10 +283,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         method: Method<C>,
         (state, h): Start<C>,
         tolerance: f64,
-    ) -> Result<Ended, Failure> {
+    ) -> Result<Ended, Cause> {
         self.guess::<R>(method, (state, h))?;
         let newton = self.newton.take();
-        let mut newton = newton.unwrap_or_else(|| SweepNewton::new(method.0, method.1, &state.g));
+        let mut newton = newton.unwrap_or_else(|| SweepNewton::new(method.1, &state.g));
         newton.weigh(self.sweep.weights());
         let ended = self.newton_with::<R>(&mut newton, method.0, (state, h), tolerance);
         self.newton = Some(newton);

@@ -7,9 +7,10 @@ use num_traits::{One, Zero};
 
 use super::stages::{Coefficients, Stages};
 use super::tableau::Tableau;
-use crate::ContinuousSystem;
-use crate::numbers::larger;
-use crate::sizes::{Kinds, NOISE, Weights, relative_beside, shaken};
+use crate::numerics::duals::lift;
+use crate::numerics::numbers::larger;
+use crate::numerics::sizes::{Kinds, NOISE, Weights, relative_beside, shaken};
+use crate::{Context, ContinuousSystem};
 
 /// Sweeps for which it holds what is rounding.
 const ROUNDING_HOLDS: u32 = 4;
@@ -134,6 +135,7 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     blocks: Vec<Block<C::Group, S>>,
     /// $g_k$.
     g: Over<C::Group, S>,
+    parameters: Vec<S>,
     workspace: C::Workspace<S>,
     pub(super) kinds: Kinds,
     /// Made at the first step.
@@ -231,7 +233,7 @@ impl<S: Batch<Item = f64>> Change<S> {
 }
 
 impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
-    pub(super) fn new(system: &C, tableau: &Tableau, g: &Over<C::Group, S::Item>) -> Self {
+    pub(super) fn new(tableau: &Tableau, g: &Over<C::Group, S::Item>) -> Self {
         let (stages, dim) = (tableau.nodes.len(), g.zero_dual().dim());
         let zero = Stages::new(stages, dim);
         let lifted = C::Group::convert::<S::Item, S>(g, S::splat);
@@ -253,7 +255,8 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             end: End::new(g),
             extra_force: None,
             blocks: (0..zero.blocks()).map(|_| Block::new(&lifted)).collect(),
-            workspace: system.workspace::<S>(&lifted),
+            parameters: Vec::new(),
+            workspace: Default::default(),
             g: lifted,
             change: Change::new(kinds.count),
             noise: vec![[0.0; 2]; kinds.count],
@@ -268,6 +271,11 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
 
     pub(super) fn dim(&self) -> usize {
         self.end.pi.dim()
+    }
+
+    /// Sets the system's parameters.
+    pub(super) fn set_parameters(&mut self, parameters: &[S::Item]) {
+        lift(parameters, S::splat, &mut self.parameters);
     }
 
     /// Sets the configuration that the step starts from.
@@ -423,7 +431,8 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         self.g.compose_into(&block.f, &mut block.g);
         let (xi, tau) = (&mut block.xi, &mut block.tau);
         let t = S::splat(h).mul_add(self.coefficients.nodes[k], S::splat(t));
-        system.velocity_and_force(t, &block.g, &block.mu, &mut self.workspace, xi, tau);
+        let (at, work) = (Context::new(t, &self.parameters), &mut self.workspace);
+        system.velocity_and_force(at, &block.g, &block.mu, work, xi, tau);
         if let Some(force) = &self.extra_force {
             block.tau.add_scaled(S::one(), force);
         }
@@ -463,10 +472,11 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         for d in 0..at.dim() {
             at.set(d, S::splat(mu.get(d)));
         }
+        let now = Context::new(S::splat(t), &self.parameters);
         let (g, workspace) = (&self.g, &mut self.workspace);
         S::run(
             #[inline(always)]
-            || system.velocity_and_force(S::splat(t), g, at, workspace, xi, tau),
+            || system.velocity_and_force(now, g, at, workspace, xi, tau),
         );
         for k in 0..self.xi.blocks() {
             xi.write(self.xi.block_mut(k));

@@ -3,7 +3,7 @@
 use lie::{RealGroup, VectorSpace};
 
 use crate::State;
-use crate::sizes::Kinds;
+use crate::numerics::sizes::Kinds;
 
 /// Steps between corrections of the rounding that moves the configuration off its group.
 ///

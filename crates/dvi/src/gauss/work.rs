@@ -1,20 +1,26 @@
-//! The storage of a method's steps, and the steps themselves, whatever scalar they are computed with.
+//! The storage of a method's steps.
 
-use core::marker::PhantomData;
-
-use lie::lanes::{InstructionSet, Job, run};
-use lie::{Batch, LieGroup, Retraction, VectorSpace};
+use lie::{Batch, LieGroup, VectorSpace};
 
 use super::newton::SweepNewton;
 use super::predictor::Predictor;
-use super::solve::{Failure, Limits, Method, Start};
-use super::sweep::{End, Sweep};
+use super::sweep::Sweep;
 use super::tableau::Tableau;
 use super::update::Update;
-use crate::sizes::{Kinds, Sizes};
-use crate::{ContinuousSystem, State, StepReport, Variation};
+use crate::numerics::sizes::{Kinds, Sizes};
+use crate::{ContinuousSystem, State, System};
 
-type Dual<C> = <<C as ContinuousSystem>::Group as LieGroup>::Dual;
+/// How far a step is solved, and by what.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// See [`Gauss::with_tolerance`](crate::Gauss::with_tolerance).
+    pub(super) tolerance: f64,
+    /// Refuses a step that the plain iteration does not solve: such steps do not pay.
+    pub(super) sweeps_only: bool,
+}
+
+pub(super) type Method<'a, C> = (&'a C, &'a Tableau);
+pub(super) type Start<'a, C> = (&'a State<<C as System>::Group>, f64);
 
 /// Storage of the steps; the stages are computed over `S`.
 pub(super) struct Work<C: ContinuousSystem, S: Batch<Item = f64>> {
@@ -35,16 +41,16 @@ pub(super) struct Work<C: ContinuousSystem, S: Batch<Item = f64>> {
     pub(super) noise_holds: u32,
     /// Made when first needed.
     pub(super) newton: Option<SweepNewton<C>>,
-    linearised: Option<SweepNewton<C>>,
+    pub(super) linearised: Option<SweepNewton<C>>,
     /// Steps to solve by Newton's method before the plain iteration is tried again.
     pub(super) long_steps: u32,
 }
 
 impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
-    fn new(system: &C, tableau: &Tableau, g: &C::Group) -> Self {
+    pub(super) fn new(tableau: &Tableau, g: &C::Group) -> Self {
         let (dim, kinds) = (g.zero_dual().dim(), Kinds::of(g).count);
         Self {
-            sweep: Sweep::new(system, tableau, g),
+            sweep: Sweep::new(tableau, g),
             predictor: Predictor::new(tableau.nodes.len(), dim),
             update: Update::new(g),
             start: vec![0.0; dim],
@@ -59,141 +65,5 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             linearised: None,
             long_steps: 0,
         }
-    }
-}
-
-/// The steps of a method, over a scalar that was chosen at run time.
-pub(super) trait Stepper<C: ContinuousSystem>: Send + Sync {
-    /// Whether the storage is for states of the shape of `state`.
-    fn fits(&self, g: &C::Group) -> bool;
-
-    /// A dual element of the storage's shape.
-    fn shape(&self) -> &Dual<C>;
-
-    /// Solves the stages of a step; the state stays as it is.
-    fn solve(
-        &mut self,
-        method: Method<C>,
-        start: Start<C>,
-        limits: Limits,
-    ) -> Result<StepReport, Failure>;
-
-    /// The state after the step that was solved.
-    fn ahead(&self, start: Start<C>) -> State<C::Group>;
-
-    /// Carries variations over the step that was solved.
-    fn carry(&mut self, method: Method<C>, start: Start<C>, variations: &mut [Variation<C::Group>]);
-
-    /// Takes the step that was solved; `None` where a number is not finite, or where the system is not defined.
-    fn accept(&mut self, system: &C, state: &mut State<C::Group>, h: f64) -> Option<()>;
-}
-
-/// The steps in the chart of `R`.
-struct InChart<C: ContinuousSystem, S: Batch<Item = f64>, R> {
-    work: Work<C, S>,
-    retraction: PhantomData<fn() -> R>,
-}
-
-impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for InChart<C, S, R> {
-    fn fits(&self, g: &C::Group) -> bool {
-        self.work.sweep.end.f.same_shape(g)
-    }
-
-    fn shape(&self) -> &Dual<C> {
-        &self.work.sweep.end.mu
-    }
-
-    fn solve(
-        &mut self,
-        method: Method<C>,
-        start: Start<C>,
-        limits: Limits,
-    ) -> Result<StepReport, Failure> {
-        self.work.solve::<R>(method, start, limits)
-    }
-
-    fn ahead(&self, (state, h): Start<C>) -> State<C::Group> {
-        let mut ahead = state.clone();
-        let End { f, mu, .. } = &self.work.sweep.end;
-        ahead.t += h;
-        ahead.g = state.g.compose(f);
-        ahead.mu.copy_from(mu);
-        ahead
-    }
-
-    fn carry(
-        &mut self,
-        (system, tableau): Method<C>,
-        start: Start<C>,
-        variations: &mut [Variation<C::Group>],
-    ) {
-        let Work {
-            sweep, linearised, ..
-        } = &mut self.work;
-        let g = &start.0.g;
-        let linearised = linearised.get_or_insert_with(|| SweepNewton::new(system, tableau, g));
-        linearised.weigh(sweep.weights());
-        linearised.carry::<R, S>(system, start, sweep, variations);
-    }
-
-    fn accept(&mut self, system: &C, state: &mut State<C::Group>, h: f64) -> Option<()> {
-        let Work {
-            sweep,
-            update,
-            predictor,
-            start,
-            drift,
-            ..
-        } = &mut self.work;
-        let End { f, impulse, mu, .. } = &sweep.end;
-        let after = update.advance(state, h, (f, impulse, mu))?;
-        if !system.is_defined(after.t, &after.g) {
-            update.forget();
-            return None;
-        }
-        state.mu.write(drift);
-        for (drift, start) in drift.iter_mut().zip(start) {
-            *drift = *start - *drift;
-        }
-        state.copy_from(after);
-        predictor.record(h, sweep);
-        Some(())
-    }
-}
-
-/// Storage for the steps from states of the shape of `g`, computed by these instructions.
-pub(super) fn stepper<C: ContinuousSystem + 'static, R: Retraction>(
-    instructions: InstructionSet,
-    system: &C,
-    tableau: &Tableau,
-    g: &C::Group,
-) -> Box<dyn Stepper<C>> {
-    let new = New {
-        system,
-        tableau,
-        g,
-        retraction: PhantomData::<R>,
-    };
-    match C::INLINE {
-        true => run(instructions, new),
-        false => new.run::<f64>(),
-    }
-}
-
-struct New<'a, C: ContinuousSystem, R> {
-    system: &'a C,
-    tableau: &'a Tableau,
-    g: &'a C::Group,
-    retraction: PhantomData<R>,
-}
-
-impl<C: ContinuousSystem + 'static, R: Retraction> Job for New<'_, C, R> {
-    type Output = Box<dyn Stepper<C>>;
-
-    fn run<S: Batch<Item = f64>>(self) -> Box<dyn Stepper<C>> {
-        Box::new(InChart::<C, S, R> {
-            work: Work::new(self.system, self.tableau, self.g),
-            retraction: PhantomData,
-        })
     }
 }

@@ -2,7 +2,7 @@
 
 use lie::{RealGroup, VectorSpace};
 
-use super::{LawError, Outcome, Report, examples};
+use super::verdict::{LawError, Outcome, Report, examples};
 use crate::State;
 
 /// What rounding may make of a formula, relative to its largest term; the systems of the tests reach a hundredth of it.

@@ -3,8 +3,8 @@
 use lie::{LieGroup, VectorSpace};
 
 use super::compare::{Checker, ROUNDING, extent};
-use super::{LawError, Outcome};
-use crate::{Derivatives, DiscreteLagrangian, State};
+use super::verdict::{LawError, Outcome};
+use crate::{Context, Derivatives, DiscreteLagrangian, State};
 
 /// How far the configuration is moved along them.
 const SHIFTS: [f64; 2] = [0.7, -1.3];
@@ -27,7 +27,8 @@ pub(super) fn check<L: DiscreteLagrangian>(
     size: f64,
 ) -> Outcome {
     let State { t, g, .. } = state;
-    let here = lagrangian.value_at(*t, g, f, h);
+    let at = Context::new(*t, lagrangian.parameters());
+    let here = lagrangian.value(at, g, f, h);
     for i in lagrangian.cyclic() {
         let case = || format!("t = {t:?}, g = {g:?}, f = {f:?}, h = {h:?}");
         let mut unit = g.zero_algebra();
@@ -37,7 +38,7 @@ pub(super) fn check<L: DiscreteLagrangian>(
         for shift in SHIFTS {
             unit.set(i, shift);
             let moved = g.compose(&L::Group::exp(&unit));
-            let there = lagrangian.value_at(*t, &moved, f, h);
+            let there = lagrangian.value(at, &moved, f, h);
             let case = || format!("{}, moved by {shift:?}", case());
             let formula = "L_d(g exp(s e), f) = L_d(g, f) along cyclic()";
             let tolerance = ROUNDING * size * extent(&moved);

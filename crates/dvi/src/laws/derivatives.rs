@@ -3,9 +3,10 @@
 use lie::{LieGroup, VectorSpace};
 
 use super::compare::{Checker, ROUNDING, extent, on_each};
+use super::cyclic;
 use super::displacements::{Displacements, displacements};
-use super::{LawError, Outcome, Report, cyclic};
-use crate::{Derivatives, DiscreteLagrangian, HamiltonianSystem, Lagrangian, State};
+use super::verdict::{LawError, Outcome, Report};
+use crate::{Context, Derivatives, DiscreteLagrangian, HamiltonianSystem, Lagrangian, State};
 
 /// Half-width of a central difference of order 4, relative to the displacement: $\varepsilon^{1/5}$ balances rounding against truncation.
 const WIDTH: f64 = 7e-4;
@@ -39,10 +40,11 @@ fn against_the_value<L: DiscreteLagrangian>(
 ) -> Outcome {
     let State { t, g, .. } = state;
     let case = || format!("t = {t:?}, g = {g:?}, f = {f:?}, h = {h:?}");
+    let at = Context::new(*t, lagrangian.parameters());
     let (mut given, mut duals) = (Derivatives::new(g), Derivatives::new(g));
-    lagrangian.derivatives(*t, g, f, h, &mut given);
-    duals.by_jets(lagrangian, *t, g, f, h);
-    let value = lagrangian.value_at(*t, g, f, h).abs();
+    lagrangian.derivatives(at, g, f, h, &mut Default::default(), &mut given);
+    duals.by_jets(lagrangian, at, g, f, h);
+    let value = lagrangian.value(at, g, f, h).abs();
     let sizes = [value, duals.d_f.max_magnitude(), duals.d_g.max_magnitude()];
     let size = sizes.iter().fold(0.0, |a: f64, b| a.max(*b));
     cyclic::check(c, lagrangian, (state, f, h), &given, size)?;
@@ -60,12 +62,12 @@ fn against_the_value<L: DiscreteLagrangian>(
     // Rounding of the value, and of what is moved.
     let rounding = |x: &L::Group| DIFFERENCES * f64::EPSILON / width * size * extent(x);
     for i in 0..given.d_f.dim() {
-        let along_f = |s| lagrangian.value_at(*t, g, &moved(f, i, s), h);
+        let along_f = |s| lagrangian.value(at, g, &moved(f, i, s), h);
         let (slope, truncation) = difference(width, &along_f);
         let formula = "d_f = T*L_f D_f L_d, by central differences";
         let sides = (given.d_f.get(i), slope);
         c.number(formula, case, i, sides, rounding(f) + truncation)?;
-        let along_g = |s| lagrangian.value_at(*t, &moved(g, i, s), f, h);
+        let along_g = |s| lagrangian.value(at, &moved(g, i, s), f, h);
         let (slope, truncation) = difference(width, &along_g);
         let formula = "d_g = T*L_g D_g L_d, by central differences";
         let sides = (given.d_g.get(i), slope);
@@ -93,10 +95,11 @@ fn symmetric<L: DiscreteLagrangian>(
 ) -> Outcome {
     let State { t, g, .. } = state;
     let case = || format!("t = {t:?}, g = {g:?}, f = {f:?}, h = {h:?}");
-    let forth = lagrangian.value_at(*t, g, f, h);
-    let back = -lagrangian.value_at(t + h, &g.compose(f), &f.inverse(), -h);
+    let at = Context::new(*t, lagrangian.parameters());
+    let forth = lagrangian.value(at, g, f, h);
+    let back = -lagrangian.value(at.at(t + h), &g.compose(f), &f.inverse(), -h);
     let mut derivatives = Derivatives::new(g);
-    derivatives.by_jets(lagrangian, *t, g, f, h);
+    derivatives.by_jets(lagrangian, at, g, f, h);
     let size = forth.abs() + derivatives.d_f.max_magnitude();
     let formula = "L_d(t, g, f, h) = -L_d(t + h, g f, f^-1, -h)";
     c.number(formula, case, 0, (forth, back), ROUNDING * size)
@@ -120,11 +123,12 @@ where
     on_each(states, |c, state| {
         let State { t, g, .. } = state;
         let xi = HamiltonianSystem(continuous).velocity(state);
-        let expected = continuous.value_at(*t, g, &xi);
+        let expected = continuous.value(Context::new(*t, continuous.parameters()), g, &xi);
+        let at = Context::new(*t, discrete.parameters());
         let mean = |h: f64| {
             let mut step = xi.zero_like();
             step.add_scaled(h, &xi);
-            discrete.value_at(*t, g, &D::Group::exp(&step), h) / h
+            discrete.value(at, g, &D::Group::exp(&step), h) / h
         };
         let [far, near] = SHRINKING.map(mean);
         let kinetic = D::Group::pair(&state.mu, &xi).abs();

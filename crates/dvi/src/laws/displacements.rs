@@ -2,7 +2,7 @@
 
 use lie::{LieGroup, Over, RealGroup, Scalar, Units, VectorSpace};
 
-use crate::{DiscreteLagrangian, State, Variational};
+use crate::{Context, DiscreteLagrangian, State, System, Variational};
 
 /// A coordinate that hardly moves is moved by this share of the largest of its kind, so that none is zero.
 const SHARE: f64 = 1e-2;
@@ -25,12 +25,13 @@ pub(super) fn displacements<L: DiscreteLagrangian>(
     h: f64,
 ) -> Displacements<L::Group> {
     let State { t, g, .. } = state;
+    let at = Context::new(*t, lagrangian.parameters());
     let mut c = part_of_motion(lagrangian, state, h);
     let (size, forth) = (c.max_magnitude(), L::Group::exp(&c));
     c.scale(BACK);
     let back = L::Group::exp(&c);
     let mut each = vec![forth];
-    if lagrangian.value_at(*t, g, &back, h).is_finite() {
+    if lagrangian.value(at, g, &back, h).is_finite() {
         each.push(back);
     }
     Displacements { each, size }
@@ -88,16 +89,27 @@ fn logarithm<G: RealGroup>(f: &G) -> G::Algebra {
 /// A discrete Lagrangian by its value alone: its motion feels no mistake in what else is given.
 struct ByValue<'a, L>(&'a L);
 
-impl<L: DiscreteLagrangian> DiscreteLagrangian for ByValue<'_, L> {
+impl<L: DiscreteLagrangian> System for ByValue<'_, L> {
     type Group = L::Group;
 
-    fn value<S: Scalar>(&self, g: &Over<L::Group, S>, f: &Over<L::Group, S>, h: S) -> S {
-        self.0.value(g, f, h)
-    }
-    fn value_at<S: Scalar>(&self, t: S, g: &Over<L::Group, S>, f: &Over<L::Group, S>, h: S) -> S {
-        self.0.value_at(t, g, f, h)
+    fn parameters(&self) -> &[f64] {
+        self.0.parameters()
     }
     fn fits(&self, g: &L::Group) -> bool {
         self.0.fits(g)
+    }
+}
+
+impl<L: DiscreteLagrangian> DiscreteLagrangian for ByValue<'_, L> {
+    type Workspace<S: Scalar> = ();
+
+    fn value<S: Scalar>(
+        &self,
+        at: Context<S>,
+        g: &Over<L::Group, S>,
+        f: &Over<L::Group, S>,
+        h: S,
+    ) -> S {
+        self.0.value(at, g, f, h)
     }
 }

@@ -2,9 +2,9 @@
 
 use lie::{RealGroup, VectorSpace};
 
-use super::LawError;
 use super::steps::difference;
-use crate::numbers::larger;
+use super::verdict::LawError;
+use crate::numerics::numbers::larger;
 use crate::{Integrator, State};
 
 /// Errors below this many roundings, which grow as a random walk, are those of the plateau.

@@ -4,8 +4,8 @@ use lie::{LieGroup, RealGroup, VectorSpace};
 
 use super::compare::{Checker, ROUNDING, extent, on_each};
 use super::displacements::size;
-use super::{LawError, Outcome, Report};
-use crate::numbers::larger;
+use super::verdict::{LawError, Outcome, Report};
+use crate::numerics::numbers::larger;
 use crate::{
     DiscreteLagrangian, FirstVariation, Integrator, State, Variation, legendre_minus,
     legendre_plus, symplectic_form,

@@ -3,11 +3,13 @@
 use lie::{LieGroup, VectorSpace};
 
 use super::compare::{Checker, ROUNDING, extent, on_each};
+use super::cyclic;
 use super::displacements::displacements;
-use super::{LawError, Outcome, Report, cyclic};
-use crate::symmetry::generator;
+use super::verdict::{LawError, Outcome, Report};
+use crate::system::generator;
 use crate::{
-    Derivatives, DiscreteLagrangian, Integrator, State, Symmetry, Variational, momentum_map,
+    Context, Derivatives, DiscreteLagrangian, Integrator, State, Symmetry, Variational,
+    momentum_map,
 };
 
 /// Parameters at which the invariance is tried.
@@ -40,16 +42,17 @@ fn invariance<L: DiscreteLagrangian>(
     h: f64,
 ) -> Outcome {
     let State { t, g, .. } = state;
+    let at = Context::new(*t, lagrangian.parameters());
     for f in displacements(lagrangian, state, h).each {
-        let here = lagrangian.value_at(*t, g, &f, h);
+        let here = lagrangian.value(at, g, &f, h);
         let mut derivatives = Derivatives::new(g);
-        derivatives.by_jets(lagrangian, *t, g, &f, h);
+        derivatives.by_jets(lagrangian, at, g, &f, h);
         let size = here.abs() + derivatives.d_f.max_magnitude() + derivatives.d_g.max_magnitude();
         for s in PARAMETERS {
             let act = |g: &L::Group| symmetry.act::<f64>(s, g);
             let moved = act(g);
             let moved_f = moved.inverse().compose(&act(&g.compose(&f)));
-            let there = lagrangian.value_at(*t, &moved, &moved_f, h);
+            let there = lagrangian.value(at, &moved, &moved_f, h);
             let case = || format!("t = {t:?}, g = {g:?}, f = {f:?}, h = {h:?}, parameter {s:?}");
             let formula = "L_d(a g, (a g)^-1 a (g f)) = L_d(g, f)";
             let tolerance = ROUNDING * size * extent(&moved);

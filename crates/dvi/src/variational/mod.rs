@@ -1,18 +1,21 @@
 //! The Lie group variational integrator of a discrete Lagrangian: (25)–(26) in both forms.
 
+mod balance;
+mod linearised;
+mod matrix;
+mod newton;
 mod solve;
+mod warm_start;
 
-use core::marker::PhantomData;
+use lie::{LieGroup, VectorSpace};
 
-use lie::{Cayley, LieGroup, Retraction, VectorSpace};
-
-use crate::newton::degenerate;
-use crate::solver::StepSolver;
-use crate::variation::Linearised;
+use crate::step::{check, check_momentum, finite};
 use crate::{
-    DiscreteLagrangian, FirstVariation, FrozenInertia, Hint, Inertia, Integrator, Newton, Pair,
-    State, StepError, StepReport, Variation, legendre_plus,
+    Cause, DiscreteLagrangian, FirstVariation, Hint, Integrator, Pair, State, StepError,
+    StepReport, Variation, legendre_plus,
 };
+use linearised::Linearised;
+pub(crate) use newton::degenerate;
 use solve::{End, Ended, Goal, Work, is_rounding};
 
 /// The default [tolerance](Variational::with_tolerance) for up to `FEW` coordinates.
@@ -33,52 +36,28 @@ const NORMALIZE_EVERY: u64 = 32;
 /// The first step allocates; later ones do not, unless the state's shape changes or a long step needs another matrix
 /// for the first time.
 ///
-/// The type parameters are the Lagrangian, the solver's matrix ([`Newton`] or [`FrozenInertia`]) and the retraction of the
-/// unknowns' chart.
-pub struct Variational<L, M = Newton<<L as DiscreteLagrangian>::Group>, R = Cayley>
-where
-    L: DiscreteLagrangian,
-{
+/// The matrix of the iteration is the model's own inertia, where it [has one](DiscreteLagrangian::HAS_INERTIA): a tree of N bodies then steps
+/// in O(N). Else it comes from dual numbers, and is dense.
+pub struct Variational<L: DiscreteLagrangian> {
     lagrangian: L,
     tolerance: Option<f64>,
+    keeps_all: bool,
     steps: u64,
-    work: Option<Work<L, M>>,
-    linearised: Option<Linearised<L::Group>>,
-    retraction: PhantomData<R>,
+    work: Option<Work<L>>,
+    linearised: Option<Linearised<L>>,
 }
 
 impl<L: DiscreteLagrangian> Variational<L> {
-    /// The integrator of a discrete Lagrangian, with the Newton matrix from dual numbers.
+    /// The integrator of a discrete Lagrangian.
     pub fn new(lagrangian: L) -> Self {
-        Self::with_solver(lagrangian)
-    }
-}
-
-impl<L: Inertia> Variational<L, FrozenInertia<L>> {
-    /// The integrator of a discrete Lagrangian that brings its own inertia solve.
-    pub fn with_inertia(lagrangian: L) -> Self {
-        Self::with_solver(lagrangian)
-    }
-}
-
-impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R> {
-    /// The integrator of a discrete Lagrangian with the solver `M`, [`Newton`] or another.
-    pub fn with_solver(lagrangian: L) -> Self {
         Self {
             lagrangian,
             tolerance: None,
+            keeps_all: false,
             steps: 0,
             work: None,
             linearised: None,
-            retraction: PhantomData,
         }
-    }
-
-    /// The same integrator with its unknowns in another retraction's chart; the solution does not depend on it.
-    pub fn with_retraction<Q: Retraction>(self) -> Variational<L, M, Q> {
-        let mut other = Variational::with_solver(self.lagrangian);
-        other.tolerance = self.tolerance;
-        other
     }
 
     /// The largest error of a solved step, relative; unless set, 1e-13 for up to 12 coordinates and growing as their root, as rounding
@@ -95,6 +74,12 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         self
     }
 
+    /// The same with all coordinates among the unknowns, and none solved for exactly: to measure what that saves.
+    pub fn with_all_unknowns(mut self) -> Self {
+        (self.keeps_all, self.work) = (true, None);
+        self
+    }
+
     /// The discrete Lagrangian.
     pub fn lagrangian(&self) -> &L {
         &self.lagrangian
@@ -106,9 +91,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     /// As [`step`](Integrator::step).
     pub fn displacement(&mut self, state: &State<L::Group>, h: f64) -> Result<L::Group, StepError> {
         self.solve(state, h)?;
-        let f = self.work((state.t, h), &state.g).balance.f.clone();
-        let time = (self.steps, state.t, h);
-        require_end(&self.lagrangian, &state.g.compose(&f), time)?;
+        let f = self.work(state, h).balance.f.clone();
+        let end = state.g.compose(&f);
+        let ends = require_end(&self.lagrangian, state.t + h, &end);
+        ends.map_err(|cause| self.error(state.t, h, cause))?;
         Ok(f)
     }
 
@@ -134,40 +120,47 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     /// # Errors
     /// As [`step`](Integrator::step); the pair is as it was.
     pub fn step_pair(&mut self, pair: &mut Pair<L::Group>) -> Result<StepReport, StepError> {
-        let Pair { t, h, g, f } = pair;
-        self.check(*t, *h, g)?;
-        let mu = legendre_plus(&self.lagrangian, *t, g, f, *h);
+        let (t, h) = (pair.t, pair.h);
+        let next = self.end_of(pair);
+        let next = next.map_err(|cause| self.error(t, h, cause))?;
+        let report = self.solve(&next, h)?;
+        let f = &self.work(&next, h).balance.f;
+        if !f.is_finite() {
+            return Err(self.error(t, h, Cause::NotFinite));
+        }
+        pair.f.clone_from(f);
+        (pair.t, pair.g) = (next.t, next.g);
+        self.accept(h);
+        Ok(report)
+    }
+
+    /// The state at the end of a pair.
+    fn end_of(&self, Pair { t, h, g, f }: &Pair<L::Group>) -> Result<State<L::Group>, Cause> {
         let mut next = State {
-            t: *t + *h,
-            g: g.compose(f),
-            mu,
+            t: t + h,
+            g: g.clone(),
+            mu: g.zero_dual(),
         };
+        check(&self.lagrangian, &next, *h)?;
+        next.mu = legendre_plus(&self.lagrangian, *t, g, f, *h);
+        next.g = g.compose(f);
         if self.normalizes() {
             next.g.normalize();
         }
-        let (step, t_k, h_k) = (self.steps, *t, *h);
-        require_end(&self.lagrangian, &next.g, (step, t_k, h_k))?;
-        let report = self.solve(&next, h_k)?;
-        if !self.work((next.t, h_k), &next.g).balance.f.is_finite() {
-            let (t, h) = (t_k, h_k);
-            return Err(StepError::NotFinite { step, t, h });
-        }
-        self.accept(*h);
-        f.clone_from(&self.work((next.t, *h), &next.g).balance.f);
-        (*t, *g) = (next.t, next.g);
-        Ok(report)
+        require_end(&self.lagrangian, next.t, &next.g)?;
+        Ok(next)
     }
 
     /// Takes the step that was solved.
     fn advance(&mut self, state: &mut State<L::Group>, h: f64) -> Result<(), StepError> {
-        let (normalizes, step, t) = (self.normalizes(), self.steps, state.t);
-        let (lagrangian, work) = (&self.lagrangian, &mut self.work);
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, (state.t, h), &state.g));
+        let normalizes = self.normalizes();
+        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), self.keeps_all);
         state.g.compose_into(&work.balance.f, &mut work.next);
         if normalizes {
             work.next.normalize();
         }
-        require_end(lagrangian, &work.next, (step, t, h))?;
+        let ends = require_end(&self.lagrangian, state.t + h, &work.next);
+        ends.map_err(|cause| cause.at((self.steps, state.t, h)))?;
         core::mem::swap(&mut state.g, &mut work.next);
         core::mem::swap(&mut state.mu, &mut work.balance.transported);
         state.t += h;
@@ -195,59 +188,50 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
     }
 
     /// The storage of a step that was solved.
-    fn work(&mut self, time: (f64, f64), g: &L::Group) -> &mut Work<L, M> {
-        self.work
-            .get_or_insert_with(|| Work::new(&self.lagrangian, time, g))
+    fn work(&mut self, state: &State<L::Group>, h: f64) -> &mut Work<L> {
+        Self::work_of(&self.lagrangian, &mut self.work, (state, h), self.keeps_all)
     }
 
-    /// Whether a step of size `h` from `g` at time `t` makes sense at all.
-    fn check(&self, t: f64, h: f64, g: &L::Group) -> Result<(), StepError> {
-        let step = self.steps;
-        if !(h.is_finite() && h != 0.0) {
-            return Err(StepError::InvalidStep { step, t, h });
-        }
-        if !self.lagrangian.fits(g) {
-            return Err(StepError::Misfit { step, t });
-        }
-        if !t.is_finite() {
-            return Err(StepError::NotFinite { step, t, h });
-        }
-        Ok(())
+    /// The storage for states of this shape, made when there is none.
+    fn work_of<'a>(
+        lagrangian: &L,
+        work: &'a mut Option<Work<L>>,
+        (state, h): (&State<L::Group>, f64),
+        keeps_all: bool,
+    ) -> &'a mut Work<L> {
+        work.get_or_insert_with(|| Work::new(lagrangian, (state.t, h), &state.g, keeps_all))
     }
 
-    /// Solves the balance from the extrapolated guess, and from no displacement where that leads nowhere or astray.
+    fn error(&self, t: f64, h: f64, cause: Cause) -> StepError {
+        cause.at((self.steps, t, h))
+    }
+
+    /// Solves the balance; the state stays as it is.
     fn solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, StepError> {
-        let (step, t) = (self.steps, state.t);
-        self.check(t, h, &state.g)?;
-        let fits = |work: &Work<L, M>| work.next.same_shape(&state.g);
+        let solved = self.try_to_solve(state, h);
+        solved.map_err(|cause| self.error(state.t, h, cause))
+    }
+
+    /// From the extrapolated guess, and from no displacement where that leads nowhere or astray.
+    fn try_to_solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, Cause> {
+        check(&self.lagrangian, state, h)?;
+        let fits = |work: &Work<L>| work.next.same_shape(&state.g);
         if !self.work.as_ref().is_some_and(fits) {
-            self.work = Some(Work::new(&self.lagrangian, (t, h), &state.g));
+            self.work = None;
         }
-        let (lagrangian, work) = (&self.lagrangian, &mut self.work);
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, (state.t, h), &state.g));
-        let shape = &work.balance.residual;
-        if !shape.same_shape(&state.mu) {
-            let (expected, found) = (shape.dim(), state.mu.dim());
-            return Err(StepError::Shape {
-                step,
-                t,
-                expected,
-                found,
-            });
-        }
-        if !state.mu.max_magnitude().is_finite() {
-            return Err(StepError::NotFinite { step, t, h });
-        }
-        let few = (shape.dim() as f64 / FEW).sqrt().max(1.0);
+        let lagrangian = &self.lagrangian;
+        let work = Self::work_of(lagrangian, &mut self.work, (state, h), self.keeps_all);
+        check_momentum(&state.mu, &work.balance.residual)?;
+        let few = (state.mu.dim() as f64 / FEW).sqrt().max(1.0);
         let goal = Goal {
             tolerance: self.tolerance.unwrap_or(TOLERANCE * few),
             accepts_rounding: self.tolerance.is_none(),
         };
         let mut before = 0;
         if work.warm.guess(h, &mut work.coordinates) {
-            work.solver.begin(lagrangian, state, h);
+            work.begin(lagrangian, (state, h));
             work.c.read(&work.coordinates);
-            let ended = work.iterate::<R>(lagrangian, (state, h), goal);
+            let ended = work.iterate(lagrangian, (state, h), goal);
             // An even number may be two bodies past their folds: the guess was, and the determinant does not tell.
             if ended.at == End::Solved && ended.turns == 0 {
                 return Ok(ended.report);
@@ -255,10 +239,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
             before = ended.report.iterations;
             work.forget();
         }
-        let mut ended = work.follow::<R>(lagrangian, (state, h), goal);
+        let mut ended = work.follow(lagrangian, (state, h), goal);
         ended.report.iterations += before;
         let coordinate = match ended.at {
-            End::Solved => match work.solver.degenerate() {
+            End::Solved => match work.matrix.degenerate() {
                 None => return Ok(ended.report),
                 coordinate => coordinate,
             },
@@ -269,51 +253,39 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Variational<L, M, R
         if let Some(coordinate) = coordinate {
             // What was seen of this state is not so of others.
             self.work = None;
-            return Err(StepError::Degenerate {
-                step,
-                t,
-                coordinate,
-            });
+            return Err(Cause::Degenerate { coordinate });
         }
-        Err(failure((step, t, h), goal.tolerance, &ended))
+        Err(failure(h, goal.tolerance, &ended))
     }
 }
 
-/// Refuses a step number `step` of size `h` from `t` that ends at no configuration of the Lagrangian's domain.
-fn require_end<L: DiscreteLagrangian>(
-    lagrangian: &L,
-    end: &L::Group,
-    (step, t, h): (u64, f64, f64),
-) -> Result<(), StepError> {
-    let ends = end.is_finite() && lagrangian.is_defined(t + h, end);
-    ends.then_some(())
-        .ok_or(StepError::NotFinite { step, t, h })
+/// Refuses a step that ends at no configuration of the Lagrangian's domain.
+fn require_end<L: DiscreteLagrangian>(lagrangian: &L, t: f64, end: &L::Group) -> Result<(), Cause> {
+    let ends = end.is_finite() && lagrangian.is_defined(t, end);
+    ends.then_some(()).ok_or(Cause::NotFinite)
 }
 
-fn failure((step, t, h): (u64, f64, f64), tolerance: f64, ended: &Ended) -> StepError {
+fn failure(h: f64, tolerance: f64, ended: &Ended) -> Cause {
     let StepReport {
         iterations,
         residual,
     } = ended.report;
     let hint = match ended.at {
-        End::NotFinite => return StepError::NotFinite { step, t, h },
+        End::NotFinite => return Cause::NotFinite,
         End::AnotherBranch => Hint::AnotherBranch { h: h / 4.0 },
         _ if is_rounding(residual, tolerance) => Hint::LooserTolerance {
             tolerance: 2.0 * residual,
         },
         _ => Hint::SmallerStep { h: h / 4.0 },
     };
-    StepError::NotConverged {
-        step,
-        t,
-        h,
+    Cause::NotConverged {
         residual,
         iterations,
         hint,
     }
 }
 
-impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Variational<L, M, R> {
+impl<L: DiscreteLagrangian> Integrator for Variational<L> {
     type Group = L::Group;
 
     fn order(&self) -> u32 {
@@ -337,15 +309,15 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
 
     fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
         self.solve(state, h)?;
-        let (step, t) = (self.steps, state.t);
-        let balance = &self.work((state.t, h), &state.g).balance;
+        let balance = &self.work(state, h).balance;
         let ahead = State {
             t: state.t + h,
             g: state.g.compose(&balance.f),
             mu: balance.transported.clone(),
         };
-        require_end(&self.lagrangian, &ahead.g, (step, t, h))?;
-        ahead.if_finite(step, t, h)
+        let ends = require_end(&self.lagrangian, ahead.t, &ahead.g);
+        let ahead = ends.and_then(|()| finite(ahead));
+        ahead.map_err(|cause| self.error(state.t, h, cause))
     }
 
     fn reset(&mut self) {
@@ -353,9 +325,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> Integrator for Vari
     }
 }
 
-impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> FirstVariation
-    for Variational<L, M, R>
-{
+impl<L: DiscreteLagrangian> FirstVariation for Variational<L> {
     fn step_varied(
         &mut self,
         state: &mut State<L::Group>,
@@ -364,23 +334,15 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>, R: Retraction> FirstVariation
     ) -> Result<StepReport, StepError> {
         let report = self.solve(state, h)?;
         let mut carried = variations.to_vec();
-        let (step, t) = (self.steps, state.t);
-        let Self {
-            lagrangian,
-            work,
-            linearised,
-            ..
-        } = self;
-        let work = work.get_or_insert_with(|| Work::new(lagrangian, (state.t, h), &state.g));
-        let fits = |known: &Linearised<L::Group>| known.fits(&state.g);
-        let mut linearised = linearised
-            .take()
-            .filter(fits)
-            .unwrap_or_else(|| Linearised::new(lagrangian, &state.g));
-        linearised.carry::<L, R>(lagrangian, (state, h), &work.c, &mut carried);
+        let fits = |known: &Linearised<L>| known.fits(&state.g);
+        let new = || Linearised::new(&self.lagrangian, &state.g);
+        let mut linearised = self.linearised.take().filter(fits).unwrap_or_else(new);
+        let lagrangian = &self.lagrangian;
+        let work = Self::work_of(lagrangian, &mut self.work, (state, h), self.keeps_all);
+        linearised.carry(lagrangian, (state, h), &work.c, &mut carried);
         self.linearised = Some(linearised);
         if !carried.iter().all(Variation::is_finite) {
-            return Err(StepError::NotFinite { step, t, h });
+            return Err(self.error(state.t, h, Cause::NotFinite));
         }
         self.advance(state, h)?;
         variations.clone_from_slice(&carried);

@@ -2,14 +2,16 @@
 
 use core::ops::Range;
 
-use lie::{LieGroup, RealGroup, Retraction, VectorSpace};
+use lie::{LieGroup, RealGroup, VectorSpace};
 
-use crate::balance::Balance;
-use crate::numbers::larger;
-use crate::sizes::{Kinds, Relative, Sizes, Weights, shake, shaken};
-use crate::solver::{Algebra, Dual, StepSolver, cyclic};
-use crate::warm_start::WarmStart;
-use crate::{Derivatives, DiscreteLagrangian, State, StepReport};
+use super::balance::Balance;
+use super::matrix::Matrix;
+use super::newton::cyclic;
+use super::warm_start::WarmStart;
+use crate::numerics::numbers::larger;
+use crate::numerics::sizes::{Kinds, Relative, Sizes, Weights, shake, shaken};
+use crate::system::{Algebra, Dual};
+use crate::{Context, Derivatives, DiscreteLagrangian, State, StepReport};
 
 /// Evaluations of the balance before a step is given up.
 const MAX_ITERATIONS: u32 = 60;
@@ -37,9 +39,9 @@ const NEAR: f64 = 0.25;
 const SHORTEST_PART: f64 = 1.0 / 64.0;
 
 /// Storage of the steps.
-pub(super) struct Work<L: DiscreteLagrangian, M> {
-    pub(super) solver: M,
-    pub(super) balance: Balance<L::Group, f64>,
+pub(super) struct Work<L: DiscreteLagrangian> {
+    pub(super) matrix: Matrix<L>,
+    pub(super) balance: Balance<L, f64>,
     /// Of the coordinates that are not solved exactly: those may have another unit, and be larger by far.
     sizes: Sizes,
     pub(super) warm: WarmStart,
@@ -137,13 +139,17 @@ pub(super) fn is_rounding(residual: f64, tolerance: f64) -> bool {
     residual < ROUNDING.max(1e3 * tolerance)
 }
 
-impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
-    pub(super) fn new(lagrangian: &L, (t, h): (f64, f64), g: &L::Group) -> Self {
-        let (c, solver) = (g.zero_algebra(), M::allocate(lagrangian, g));
+impl<L: DiscreteLagrangian> Work<L> {
+    pub(super) fn new(lagrangian: &L, (t, h): (f64, f64), g: &L::Group, keeps_all: bool) -> Self {
+        let (c, matrix) = (g.zero_algebra(), Matrix::new(lagrangian, g, keeps_all));
         let weights = weights(lagrangian, (t, h), g);
         Self {
             balance: Balance::new(g),
-            sizes: Sizes::new(g, solver.exact(lagrangian), weights.as_ref()),
+            sizes: Sizes::new(
+                g,
+                matrix.solved_exactly(lagrangian, c.dim()),
+                weights.as_ref(),
+            ),
             warm: WarmStart::new(g, weights.as_ref()),
             coordinates: vec![0.0; c.dim()],
             delta: c.clone(),
@@ -152,25 +158,33 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             c,
             next: g.clone(),
             shaken: None,
-            solver,
+            matrix,
         }
+    }
+
+    /// Prepares the step of size `h` from `state`.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, lagrangian: &L, (state, h): (&State<L::Group>, f64)) {
+        self.balance.set_parameters(lagrangian);
+        let work = &mut self.balance.workspace;
+        self.matrix.begin(lagrangian, (state, h), work);
     }
 
     /// Forgets what steps before have left, where it may be what made a step fail.
     pub(super) fn forget(&mut self) {
         self.warm.forget();
-        self.solver.forget();
+        self.matrix.forget();
     }
 
     /// Follows the solution from $h = 0$, where it is no displacement: in one go, or else in parts. The balance of a long step has many
     /// roots, and this one is the motion's.
-    pub(super) fn follow<R: Retraction>(
+    pub(super) fn follow(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
         goal: Goal,
     ) -> Ended {
-        let mut whole = self.follow_to::<R>(lagrangian, (state, h), [0.0, 1.0], goal);
+        let mut whole = self.follow_to(lagrangian, (state, h), [0.0, 1.0], goal);
         let missed = match whole.at {
             End::AnotherBranch => true,
             End::Nowhere => !is_rounding(whole.report.residual, goal.tolerance),
@@ -182,7 +196,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         let (mut reached, mut part) = (0.0, 0.5);
         while part >= SHORTEST_PART {
             let next = (reached + part).min(1.0);
-            let mut ended = self.follow_to::<R>(lagrangian, (state, h), [reached, next], goal);
+            let mut ended = self.follow_to(lagrangian, (state, h), [reached, next], goal);
             whole.report.iterations += ended.report.iterations;
             if ended.at != End::Solved {
                 part *= 0.5;
@@ -199,7 +213,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     }
 
     /// Solves for the share `next` of a step from the solution for the share `reached`.
-    fn follow_to<R: Retraction>(
+    fn follow_to(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
@@ -212,10 +226,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             self.c.copy_from(&self.reached);
             self.c.scale(next / reached);
         }
-        self.solver.forget();
-        self.solver.begin(lagrangian, state, next * h);
+        self.matrix.forget();
+        self.begin(lagrangian, (state, next * h));
         self.c.write(&mut self.coordinates);
-        let mut ended = self.iterate::<R>(lagrangian, (state, next * h), goal);
+        let mut ended = self.iterate(lagrangian, (state, next * h), goal);
         // Pivots turn in pairs where none of them is a fold; and where two bodies are past theirs.
         let followed = reached > 0.0 && ended.turns.is_multiple_of(2) && self.is_near();
         if ended.at == End::Solved && ended.turns > 0 && !followed {
@@ -234,7 +248,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
 
     /// Iterates from the coordinates in `c`, which `coordinates` are too, until the goal is reached. With the exact matrix the residual has to
     /// fall, by a part of the correction where not by all: else the iteration leads anywhere.
-    pub(super) fn iterate<R: Retraction>(
+    pub(super) fn iterate(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
@@ -252,20 +266,20 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         let mut progress = Progress::NONE;
         let (mut exact, mut part, mut measured) = (false, 1.0, 0);
         for iterations in 1..=MAX_ITERATIONS {
-            self.evaluate::<R>(lagrangian, state, h);
+            self.evaluate(lagrangian, state, h);
             if iterations == 1 {
                 self.set_scales(state);
             }
             let now = self.residual();
             let residual = now.overall;
-            let slow = progress.is_slow(now, M::SLOW);
+            let slow = progress.is_slow(now, Matrix::<L>::SLOW);
             let mut solved = goal.is_reached(now);
             if !solved && goal.accepts_rounding && measured < MEASUREMENTS && progress.stands(now) {
                 measured += 1;
-                solved = self.is_noise::<R>(lagrangian, (state, h), (goal.tolerance, measured));
+                solved = self.is_noise(lagrangian, (state, h), (goal.tolerance, measured));
             }
             if solved {
-                match self.finish::<R>(lagrangian, (state, h), goal, now) {
+                match self.finish(lagrangian, (state, h), goal, now) {
                     Some(ended) => return ended.after(iterations),
                     // Solving the cyclic equations has moved the rest.
                     None => continue,
@@ -286,14 +300,14 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 return ended(End::Nowhere, iterations, best);
             }
             part = 1.0;
-            if self.solver.is_stale() || slow || !residual.is_finite() {
+            if self.matrix.is_stale() || slow || !residual.is_finite() {
                 // Where the steps before have led astray, the exact matrix is that of the start.
                 let astray = residual.is_nan() || residual > first.max(AT_ROOT);
                 if astray {
                     self.delta.read(&self.coordinates);
                 }
                 let at = if astray { &self.delta } else { &self.c };
-                let renewed = self.solver.renew::<R>(lagrangian, state, h, at);
+                let renewed = self.matrix.renew(lagrangian, (state, h), at);
                 exact |= renewed;
                 if renewed && astray {
                     core::mem::swap(&mut self.c, &mut self.delta);
@@ -305,10 +319,10 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 return ended(End::Nowhere, iterations, best);
             }
             progress.push(now);
-            self.solver
-                .solve(lagrangian, &self.balance.residual, &mut self.delta);
+            let (work, left) = (&mut self.balance.workspace, &self.balance.residual);
+            self.matrix.solve(lagrangian, work, left, &mut self.delta);
             if residual < SETTLES_BELOW && self.is_settled(goal.tolerance) {
-                match self.finish::<R>(lagrangian, (state, h), goal, now) {
+                match self.finish(lagrangian, (state, h), goal, now) {
                     Some(ended) => return ended.after(iterations),
                     None => continue,
                 }
@@ -319,17 +333,17 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
     }
 
     /// The end at a residual that is good enough; none where solving the cyclic equations on has made it worse.
-    fn finish<R: Retraction>(
+    fn finish(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
         goal: Goal,
         found: Relative,
     ) -> Option<Ended> {
-        if self.solver.is_stale() {
-            self.solver.renew::<R>(lagrangian, state, h, &self.c);
+        if self.matrix.is_stale() {
+            self.matrix.renew(lagrangian, (state, h), &self.c);
         }
-        let iterations = self.finish_cyclic::<R>(lagrangian, state, h)?;
+        let iterations = self.finish_cyclic(lagrangian, state, h)?;
         let solved = |iterations, residual, turns| Ended {
             report: StepReport {
                 iterations,
@@ -339,7 +353,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
             turns,
         };
         // The iteration contracts: the solution's matrix has the signs of the one that it is found by.
-        let turns = self.solver.turns();
+        let turns = self.matrix.turns();
         if iterations == 0 {
             return Some(solved(0, found.overall, turns));
         }
@@ -349,7 +363,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         }
         let now = self.residual();
         let holds = goal.is_reached(now) || now.overall <= 2.0 * found.overall;
-        holds.then(|| solved(iterations, now.overall, self.solver.turns()))
+        holds.then(|| solved(iterations, now.overall, self.matrix.turns()))
     }
 
     /// The momenta in the balance as it is evaluated first: before the step, after it, and what a force adds to either.
@@ -379,7 +393,7 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
 
     /// Whether the residual is no more than rounding makes of it: it is compared with that of arguments which differ in their last place.
     #[cold]
-    fn is_noise<R: Retraction>(
+    fn is_noise(
         &mut self,
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
@@ -398,11 +412,11 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
         other.residual.copy_from(&self.balance.residual);
         shake(&mut other.state.mu, time);
         shake(&mut self.c, time);
-        self.evaluate::<R>(lagrangian, &other.state, h);
+        self.evaluate(lagrangian, &other.state, h);
         other.residual.add_scaled(-1.0, &self.balance.residual);
         self.sizes.raise_noise(&other.residual);
         self.c.copy_from(&other.c);
-        self.evaluate::<R>(lagrangian, state, h);
+        self.evaluate(lagrangian, state, h);
         self.shaken = Some(other);
         self.residual();
         self.is_settled(tolerance)
@@ -410,22 +424,24 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
 
     /// Evaluates the balance at `c`.
     #[inline(always)]
-    fn evaluate<R: Retraction>(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) {
-        self.balance.retract::<R>(&self.c);
-        let Balance { f, derivatives, .. } = &mut self.balance;
-        self.solver
-            .derivatives(lagrangian, (state, h), f, &mut self.c, derivatives);
+    fn evaluate(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) {
+        self.balance.retract(&self.c);
+        let Balance {
+            f,
+            derivatives,
+            parameters,
+            workspace,
+            ..
+        } = &mut self.balance;
+        let (own, at) = ((&parameters[..], workspace), (f, &mut self.c));
+        self.matrix
+            .derivatives(lagrangian, (state, h), own, at, derivatives);
         self.balance.transport(&state.mu);
     }
 
     /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance; the iterations, or none where they
     /// are not solved.
-    fn finish_cyclic<R: Retraction>(
-        &mut self,
-        lagrangian: &L,
-        state: &State<L::Group>,
-        h: f64,
-    ) -> Option<u32> {
+    fn finish_cyclic(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) -> Option<u32> {
         let cyclic = cyclic(lagrangian, self.coordinates.len());
         let mut last = f64::INFINITY;
         for iterations in 0..=MAX_ITERATIONS {
@@ -443,19 +459,22 @@ impl<L: DiscreteLagrangian, M: StepSolver<L>> Work<L, M> {
                 }
                 last = correction;
                 // The matrix is of a place too far from this one.
-                self.solver.renew::<R>(lagrangian, state, h, &self.c);
+                self.matrix.renew(lagrangian, (state, h), &self.c);
             }
-            let left: &Dual<L> = &self.balance.residual;
+            let Balance {
+                workspace,
+                residual,
+                ..
+            } = &mut self.balance;
+            let left: &Dual<L> = residual;
             let solved = cyclic.clone().all(|i| left.get(i) == 0.0);
-            let corrects = !solved
-                && self
-                    .solver
-                    .solve_cyclic(left, cyclic.clone(), &mut self.cyclic_delta);
+            let delta = &mut self.cyclic_delta;
+            let corrects = !solved && self.matrix.solve_cyclic(lagrangian, workspace, left, delta);
             if !corrects {
                 return Some(iterations);
             }
             self.c.add_scaled(-1.0, &self.cyclic_delta);
-            self.evaluate::<R>(lagrangian, state, h);
+            self.evaluate(lagrangian, state, h);
         }
         None
     }
@@ -482,12 +501,13 @@ fn weights<L: DiscreteLagrangian>(
     const SHORT: f64 = 1e-6;
     const SMALL: f64 = 1e-9;
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
-    let mut derivatives = Derivatives::new(g);
+    let (mut derivatives, mut work) = (Derivatives::new(g), Default::default());
+    let at = Context::new(t, lagrangian.parameters());
     let mut momentum = |displacement: f64, i: usize| {
         c.set_zero();
         c.set(i, displacement);
         L::Group::cayley_into(&c, &mut f);
-        lagrangian.derivatives(t, g, &f, SHORT * h, &mut derivatives);
+        lagrangian.derivatives(at, g, &f, SHORT * h, &mut work, &mut derivatives);
         derivatives.d_f.get(i)
     };
     let inertia = |_, i| (momentum(SMALL, i) - momentum(0.0, i)).abs();

@@ -1,6 +1,6 @@
 //! Systems that the tests share.
 
-use dvi::{Force, Lagrangian, State};
+use dvi::{Context, Force, Lagrangian, State, System};
 use lie::{
     Cotangent, Exp, LieGroup, Mat3, Retraction, Rn, SE3, SO3, Scalar, Tangent, Vec3, VectorSpace,
 };
@@ -14,10 +14,12 @@ pub const INERTIA: [f64; 3] = [1.0, 2.0, 2.5];
 /// Weight times the mass centre, N m.
 pub const LEVER: Vec3 = Vec3([0.1, 0.2, 0.7]);
 
-impl Lagrangian for Top {
+impl System for Top {
     type Group = SO3;
+}
 
-    fn value<S: Scalar>(&self, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
+impl Lagrangian for Top {
+    fn value<S: Scalar>(&self, _: Context<S>, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
         let j = Mat3::diagonal(INERTIA).lift::<S>();
         let omega = omega.vec3();
         omega.dot(j * omega) * S::from_f64(0.5) - r.rotate(LEVER.lift())[2]
@@ -33,10 +35,12 @@ pub fn top() -> State<SO3> {
 #[derive(Clone, Copy)]
 pub struct Sinking;
 
-impl Lagrangian for Sinking {
+impl System for Sinking {
     type Group = SE3;
+}
 
-    fn value<S: Scalar>(&self, g: &SE3<S>, xi: &Tangent<6, S>) -> S {
+impl Lagrangian for Sinking {
+    fn value<S: Scalar>(&self, _: Context<S>, g: &SE3<S>, xi: &Tangent<6, S>) -> S {
         let (omega, v) = xi.split();
         let (j, m) = (
             Mat3::diagonal([1.0, 1.5, 2.0]),
@@ -60,18 +64,16 @@ pub fn sinking() -> State<SE3> {
 #[derive(Clone, Copy)]
 pub struct Driven;
 
-impl Lagrangian for Driven {
+impl System for Driven {
     type Group = Rn<2>;
+}
 
-    fn value<S: Scalar>(&self, x: &Rn<2, S>, v: &Tangent<2, S>) -> S {
-        self.value_at(S::zero(), x, v)
-    }
-
-    fn value_at<S: Scalar>(&self, t: S, x: &Rn<2, S>, v: &Tangent<2, S>) -> S {
+impl Lagrangian for Driven {
+    fn value<S: Scalar>(&self, at: Context<S>, x: &Rn<2, S>, v: &Tangent<2, S>) -> S {
         let ([x, y], [u, w]) = (x.0, v.0);
         let square = u * u + w * w;
         let kinetic = square * S::from_f64(0.5) + square * square * S::from_f64(0.25);
-        let potential = (x * x + y * y) * S::from_f64(0.5) - x * t.sin_cos().0;
+        let potential = (x * x + y * y) * S::from_f64(0.5) - x * at.t.sin_cos().0;
         kinetic + (x * w - y * u) * S::from_f64(0.3) - potential
     }
 }
@@ -89,8 +91,14 @@ pub struct Brake(pub f64);
 impl Force for Brake {
     type Group = SO3;
 
-    fn force<S: Scalar>(&self, _: S, _: &SO3<S>, omega: &Tangent<3, S>) -> Cotangent<3, S> {
-        Cotangent(omega.0.map(|x| x * S::from_f64(-self.0)))
+    fn force<S: Scalar>(
+        &self,
+        _: Context<S>,
+        _: &SO3<S>,
+        omega: &Tangent<3, S>,
+        out: &mut Cotangent<3, S>,
+    ) {
+        *out = Cotangent(omega.0.map(|x| x * S::from_f64(-self.0)));
     }
 }
 

@@ -1,8 +1,8 @@
 //! Compositions: order, symmetry, symplecticity.
 
 use dvi::{
-    Adjoint, Composition, DiscreteLagrangian, Integrator, Lagrangian, LeftPoint, Midpoint, State,
-    StepError, Variational, laws,
+    Adjoint, Cause, Composition, Context, DiscreteLagrangian, Integrator, Lagrangian, Quadrature,
+    State, System, Variational, laws,
 };
 use lie::{Cotangent, SO3, Scalar};
 
@@ -13,7 +13,7 @@ fn order<L: DiscreteLagrangian + Clone, const P: u32>(
     state: &State<L::Group>,
     steps: &[u32],
 ) {
-    let integrator = || Composition::<_, P>::new(lagrangian.clone());
+    let integrator = || Composition::new::<P>(lagrangian.clone());
     let order = laws::observed_order(integrator, state, 2.0, steps).unwrap();
     println!("order {P}: {:.3} {:?}", order.slope, order.errors);
     assert!((order.slope - f64::from(P)).abs() < 0.2, "{order:?}");
@@ -28,7 +28,7 @@ macro_rules! compositions {
             order::<_, 4>(&lagrangian, &state, &[32, 64, 128]);
             order::<_, 6>(&lagrangian, &state, &[16, 24, 32]);
             order::<_, 8>(&lagrangian, &state, &$eighth);
-            let mut integrator = Composition::<_, 8>::new(lagrangian);
+            let mut integrator = Composition::new::<8>(lagrangian);
             let states = [state];
             laws::check_symplecticity(&mut integrator, &states, 0.1).unwrap();
             laws::check_reversibility(&mut integrator, &states, 0.1).unwrap();
@@ -37,21 +37,21 @@ macro_rules! compositions {
 }
 
 compositions! {
-    of_a_one_sided_rule_on_so3: Top.discretise::<LeftPoint>(), top(), [8, 10, 12];
-    of_a_symmetric_rule_on_so3: Top.discretise::<Midpoint>(), top(), [12, 14, 16];
-    of_a_one_sided_rule_on_se3: Sinking.discretise::<LeftPoint>(), sinking(), [10, 12, 14];
-    of_a_driven_particle: Driven.discretise::<LeftPoint>(), driven(), [12, 14, 16];
+    of_a_one_sided_rule_on_so3: Top.discretise(Quadrature::LeftPoint), top(), [8, 10, 12];
+    of_a_symmetric_rule_on_so3: Top.discretise(Quadrature::Midpoint), top(), [12, 14, 16];
+    of_a_one_sided_rule_on_se3: Sinking.discretise(Quadrature::LeftPoint), sinking(), [10, 12, 14];
+    of_a_driven_particle: Driven.discretise(Quadrature::LeftPoint), driven(), [12, 14, 16];
 }
 
 #[test]
 fn a_force_is_composed_too() {
     order::<_, 2>(
-        &Top.discretise::<LeftPoint>().with_force(Brake(0.3)),
+        &Top.discretise(Quadrature::LeftPoint).with_force(Brake(0.3)),
         &top(),
         &[64, 128, 256],
     );
     order::<_, 4>(
-        &Top.discretise::<LeftPoint>().with_force(Brake(0.3)),
+        &Top.discretise(Quadrature::LeftPoint).with_force(Brake(0.3)),
         &top(),
         &[32, 64, 128],
     );
@@ -59,7 +59,7 @@ fn a_force_is_composed_too() {
 
 #[test]
 fn the_adjoint_is_the_inverse_of_the_step_backwards() {
-    let discrete = Sinking.discretise::<LeftPoint>();
+    let discrete = Sinking.discretise(Quadrature::LeftPoint);
     laws::check(&Adjoint(discrete), &[sinking()], 0.1).unwrap();
     let mut state = sinking();
     Variational::new(Adjoint(discrete))
@@ -73,10 +73,14 @@ fn the_adjoint_is_the_inverse_of_the_step_backwards() {
 #[derive(Clone, Copy)]
 struct FreeBody;
 
-impl DiscreteLagrangian for FreeBody {
+impl System for FreeBody {
     type Group = SO3;
+}
 
-    fn value<S: Scalar>(&self, _: &SO3<S>, f: &SO3<S>, h: S) -> S {
+impl DiscreteLagrangian for FreeBody {
+    type Workspace<S: Scalar> = ();
+
+    fn value<S: Scalar>(&self, _: Context<S>, _: &SO3<S>, f: &SO3<S>, h: S) -> S {
         let minus_identity = f.minus_identity();
         let entry =
             |i: usize| minus_identity[(i, i)].times(0.5 * INERTIA.iter().sum::<f64>() - INERTIA[i]);
@@ -92,12 +96,12 @@ fn a_refused_part_undoes_the_parts_before() {
         g: SO3::identity(),
         mu,
     };
-    let mut integrator = Composition::<_, 4>::new(FreeBody);
+    let mut integrator = Composition::new::<4>(FreeBody);
     integrator.step(&mut state, 0.1).unwrap();
     let before = state.clone();
     // Half of the first part is 0.83 s long, half of the third, which goes back in time, 1.3 s: beyond 1 s there is no solution.
     let error = integrator.step(&mut state, 4.0).unwrap_err();
-    assert!(matches!(error, StepError::NotConverged { .. }), "{error}");
+    assert!(matches!(error.cause, Cause::NotConverged { .. }), "{error}");
     assert_eq!(state, before);
     integrator.step(&mut state, 1.0).unwrap();
 }
@@ -105,7 +109,7 @@ fn a_refused_part_undoes_the_parts_before() {
 /// Its parts count their steps, and a look ahead is none.
 #[test]
 fn a_peek_is_not_counted() {
-    let integrator = || Composition::<_, 4>::new(Top.discretise::<LeftPoint>());
+    let integrator = || Composition::new::<4>(Top.discretise(Quadrature::LeftPoint));
     let (mut plain, mut watched) = (integrator(), integrator());
     let (mut a, mut b) = (top(), top());
     for _ in 0..40 {
@@ -118,7 +122,7 @@ fn a_peek_is_not_counted() {
     assert!(common::distance(&a, &b) < 1e-11);
     let refused = watched.step(&mut b, f64::NAN).unwrap_err();
     assert!(
-        matches!(refused, StepError::InvalidStep { step: 40, .. }),
+        matches!((refused.step, refused.cause), (40, Cause::InvalidStep)),
         "{refused}"
     );
 }

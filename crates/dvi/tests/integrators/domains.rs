@@ -2,8 +2,8 @@
 
 use dvi::laws::{self, LawError};
 use dvi::{
-    Derivatives, DiscreteLagrangian, Lagrangian, LeftPoint, LeftTranslation, Midpoint, Quadrature,
-    RightPoint, State, Trapezoid,
+    Context, Derivatives, DiscreteLagrangian, Lagrangian, LeftTranslation, Quadrature, State,
+    System,
 };
 use lie::{Rn, Scalar, Tangent};
 
@@ -15,10 +15,12 @@ const STEPS: [f64; 3] = [0.05, 0.1, 0.5];
 #[derive(Clone, Copy)]
 struct Relativistic;
 
-impl Lagrangian for Relativistic {
+impl System for Relativistic {
     type Group = Rn<3>;
+}
 
-    fn value<S: Scalar>(&self, _: &Rn<3, S>, v: &Tangent<3, S>) -> S {
+impl Lagrangian for Relativistic {
+    fn value<S: Scalar>(&self, _: Context<S>, _: &Rn<3, S>, v: &Tangent<3, S>) -> S {
         let square = v.0.iter().fold(S::zero(), |sum, v| sum + *v * *v);
         -(S::one() - square).sqrt()
     }
@@ -35,10 +37,12 @@ struct Barrier;
 
 const STRENGTH: f64 = 1e-3;
 
-impl Lagrangian for Barrier {
+impl System for Barrier {
     type Group = Rn<1>;
+}
 
-    fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+impl Lagrangian for Barrier {
+    fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
         v[0] * v[0] * S::from_f64(0.5) + x.0[0].ln() * S::from_f64(STRENGTH)
     }
 }
@@ -47,21 +51,20 @@ fn near(x: f64, v: f64) -> State<Rn<1>> {
     Barrier.state(0.0, Rn([x]), &Tangent([v])).unwrap()
 }
 
-fn passes<L: Lagrangian + Copy, Q: Quadrature>(system: L, state: &State<L::Group>, h: f64) {
+fn passes<L: Lagrangian + Copy>(system: L, rule: Quadrature, state: &State<L::Group>, h: f64) {
     let states = [state.clone()];
-    let discrete = system.discretise::<Q>();
-    let named = |error| panic!("{}, h = {h}: {error}", Q::NAME);
+    let discrete = system.discretise(rule);
+    let named = |error| panic!("{}, h = {h}: {error}", rule.name());
     let report = laws::check(&discrete, &states, h).unwrap_or_else(named);
     // As for systems that are defined everywhere.
-    assert!(report.worst < 0.3, "{}, h = {h}: {report:?}", Q::NAME);
+    assert!(report.worst < 0.3, "{}, h = {h}: {report:?}", rule.name());
     laws::check_consistency(&discrete, &system, &states).unwrap_or_else(named);
 }
 
 fn passes_by_every_rule<L: Lagrangian + Copy>(system: L, state: &State<L::Group>, h: f64) {
-    passes::<L, LeftPoint>(system, state, h);
-    passes::<L, RightPoint>(system, state, h);
-    passes::<L, Midpoint>(system, state, h);
-    passes::<L, Trapezoid>(system, state, h);
+    for rule in Quadrature::ALL {
+        passes(system, rule, state, h);
+    }
 }
 
 #[test]
@@ -77,7 +80,7 @@ fn below_the_speed_of_light() {
             passes_by_every_rule(Relativistic, &state, h);
             passes_by_every_rule(Relativistic, &state, -h);
             let shift = LeftTranslation(Tangent([0.0, 1.0, 0.0]));
-            let discrete = Relativistic.discretise::<Midpoint>();
+            let discrete = Relativistic.discretise(Quadrature::Midpoint);
             laws::check_symmetry(&discrete, &shift, std::slice::from_ref(&state), h).unwrap();
         }
     }
@@ -113,19 +116,24 @@ fn factors<S: Scalar>(mistake: u8) -> [S; 2] {
 
 struct RelativisticByHand<const MISTAKE: u8>;
 
-impl<const M: u8> DiscreteLagrangian for RelativisticByHand<M> {
+impl<const M: u8> System for RelativisticByHand<M> {
     type Group = Rn<3>;
+}
 
-    fn value<S: Scalar>(&self, _: &Rn<3, S>, f: &Rn<3, S>, h: S) -> S {
+impl<const M: u8> DiscreteLagrangian for RelativisticByHand<M> {
+    type Workspace<S: Scalar> = ();
+
+    fn value<S: Scalar>(&self, _: Context<S>, _: &Rn<3, S>, f: &Rn<3, S>, h: S) -> S {
         -(S::one() - speed_squared(f, h)).sqrt() * h
     }
 
     fn derivatives<S: Scalar>(
         &self,
-        _: S,
+        _: Context<S>,
         _: &Rn<3, S>,
         f: &Rn<3, S>,
         h: S,
+        (): &mut (),
         out: &mut Derivatives<Rn<3>, S>,
     ) {
         let [factor, _] = factors::<S>(M);
@@ -141,10 +149,14 @@ fn speed_squared<S: Scalar>(f: &Rn<3, S>, h: S) -> S {
 
 struct BarrierByHand<const MISTAKE: u8>;
 
-impl<const M: u8> DiscreteLagrangian for BarrierByHand<M> {
+impl<const M: u8> System for BarrierByHand<M> {
     type Group = Rn<1>;
+}
 
-    fn value<S: Scalar>(&self, x: &Rn<1, S>, f: &Rn<1, S>, h: S) -> S {
+impl<const M: u8> DiscreteLagrangian for BarrierByHand<M> {
+    type Workspace<S: Scalar> = ();
+
+    fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, f: &Rn<1, S>, h: S) -> S {
         let (x, f) = (x.0[0], f.0[0]);
         let x = match M {
             // A constant: duals do not see that it varies, and derivatives by hand that agree with them are wrong.
@@ -156,14 +168,15 @@ impl<const M: u8> DiscreteLagrangian for BarrierByHand<M> {
 
     fn derivatives<S: Scalar>(
         &self,
-        t: S,
+        at: Context<S>,
         x: &Rn<1, S>,
         f: &Rn<1, S>,
         h: S,
+        (): &mut (),
         out: &mut Derivatives<Rn<1>, S>,
     ) {
         if M == LOST_IN_THE_VALUE {
-            return out.by_jets(self, t, x, f, h);
+            return out.by_jets(self, at, x, f, h);
         }
         let [of_f, of_g] = factors::<S>(M);
         out.d_f.0 = [of_f * f.0[0] / h];
@@ -209,31 +222,34 @@ fn mistakes_in_derivatives_by_hand_are_caught() {
 #[derive(Clone, Copy)]
 struct Claims<L>(L, [usize; 2]);
 
-impl<L: Lagrangian> Lagrangian for Claims<L> {
+impl<L: Lagrangian> System for Claims<L> {
     type Group = L::Group;
-
-    fn value<S: Scalar>(
-        &self,
-        g: &lie::Over<L::Group, S>,
-        xi: &lie::AlgebraOver<L::Group, S>,
-    ) -> S {
-        self.0.value(g, xi)
-    }
 
     fn cyclic(&self) -> core::ops::Range<usize> {
         self.1[0]..self.1[1]
     }
 }
 
+impl<L: Lagrangian> Lagrangian for Claims<L> {
+    fn value<S: Scalar>(
+        &self,
+        at: Context<S>,
+        g: &lie::Over<L::Group, S>,
+        xi: &lie::AlgebraOver<L::Group, S>,
+    ) -> S {
+        self.0.value(at, g, xi)
+    }
+}
+
 #[test]
 fn coordinates_that_are_not_cyclic_are_caught() {
     let shifted = "L_d(g exp(s e), f) = L_d(g, f) along cyclic()";
-    let barrier = Claims(Barrier, [0, 1]).discretise::<Midpoint>();
+    let barrier = Claims(Barrier, [0, 1]).discretise(Quadrature::Midpoint);
     named(laws::check(&barrier, &[near(0.1, 1.0)], 0.1), shifted);
     let (driven, state) = (crate::common::Driven, crate::common::driven());
     for claim in [[0, 1], [1, 2], [0, 2]] {
         let verdict = laws::check(
-            &Claims(driven, claim).discretise::<Midpoint>(),
+            &Claims(driven, claim).discretise(Quadrature::Midpoint),
             std::slice::from_ref(&state),
             0.05,
         );
@@ -241,14 +257,14 @@ fn coordinates_that_are_not_cyclic_are_caught() {
     }
     // Position enters nowhere, but its coordinates turn with the body: no factor of a direct product.
     let (free, state) = (Claims(Floating, [3, 6]), crate::common::sinking());
-    let verdict = laws::check(&free.discretise::<Midpoint>(), &[state], 0.05);
+    let verdict = laws::check(&free.discretise(Quadrature::Midpoint), &[state], 0.05);
     named(
         verdict,
         "Ad_f e = e along cyclic(), a factor R^m of a direct product",
     );
     // All of them too, whose equations are not linear.
     for claim in [[0, 1], [1, 3], [3, 3], [0, 3]] {
-        let honest = Claims(Relativistic, claim).discretise::<Midpoint>();
+        let honest = Claims(Relativistic, claim).discretise(Quadrature::Midpoint);
         let verdict = laws::check(&honest, &[flying([0.3, -0.2, 0.5])], 0.1);
         verdict.unwrap_or_else(|e| panic!("{claim:?}: {e}"));
     }
@@ -258,11 +274,13 @@ fn coordinates_that_are_not_cyclic_are_caught() {
 #[derive(Clone, Copy)]
 struct Floating;
 
-impl Lagrangian for Floating {
+impl System for Floating {
     type Group = lie::SE3;
+}
 
-    fn value<S: Scalar>(&self, g: &lie::SE3<S>, xi: &Tangent<6, S>) -> S {
-        crate::common::Sinking.value(g, xi) + g.translation[2] * S::from_f64(0.4)
+impl Lagrangian for Floating {
+    fn value<S: Scalar>(&self, at: Context<S>, g: &lie::SE3<S>, xi: &Tangent<6, S>) -> S {
+        crate::common::Sinking.value(at, g, xi) + g.translation[2] * S::from_f64(0.4)
     }
 }
 
@@ -270,7 +288,7 @@ impl Lagrangian for Floating {
 fn coordinates_that_are_not_there_are_named() {
     for claim in [[0, 4], [3, 4], [9, 12]] {
         let (system, states) = (Claims(Relativistic, claim), [flying([0.3, -0.2, 0.5])]);
-        let discrete = system.discretise::<Midpoint>();
+        let discrete = system.discretise(Quadrature::Midpoint);
         let shift = LeftTranslation(Tangent([0.0, 1.0, 0.0]));
         let expected = Err(LawError::Cyclic {
             cyclic: claim[0]..claim[1],
@@ -285,27 +303,32 @@ fn coordinates_that_are_not_there_are_named() {
 /// A derivative along a coordinate that is declared cyclic, where the value has none.
 struct Pushed;
 
-impl DiscreteLagrangian for Pushed {
+impl System for Pushed {
     type Group = Rn<3>;
 
-    fn value<S: Scalar>(&self, g: &Rn<3, S>, f: &Rn<3, S>, h: S) -> S {
-        RelativisticByHand::<NONE>.value(g, f, h)
+    fn cyclic(&self) -> core::ops::Range<usize> {
+        0..3
+    }
+}
+
+impl DiscreteLagrangian for Pushed {
+    type Workspace<S: Scalar> = ();
+
+    fn value<S: Scalar>(&self, at: Context<S>, g: &Rn<3, S>, f: &Rn<3, S>, h: S) -> S {
+        RelativisticByHand::<NONE>.value(at, g, f, h)
     }
 
     fn derivatives<S: Scalar>(
         &self,
-        t: S,
+        at: Context<S>,
         g: &Rn<3, S>,
         f: &Rn<3, S>,
         h: S,
+        work: &mut (),
         out: &mut Derivatives<Rn<3>, S>,
     ) {
-        RelativisticByHand::<NONE>.derivatives(t, g, f, h, out);
+        RelativisticByHand::<NONE>.derivatives(at, g, f, h, work, out);
         out.d_g.0[1] = h * S::from_f64(1e-6);
-    }
-
-    fn cyclic(&self) -> core::ops::Range<usize> {
-        0..3
     }
 }
 

@@ -1,8 +1,8 @@
 //! Variational Gauss: order, symplecticity, momenta, and how it refuses.
 
 use dvi::{
-    FirstVariation, Force, Forced, Gauss, Hint, Integrator, Lagrangian, LeftTranslation, State,
-    StepError, Variation, laws, momentum_map,
+    Cause, Context, FirstVariation, Force, Forced, Gauss, Hint, Integrator, Lagrangian,
+    LeftTranslation, State, StepError, Variation, laws, momentum_map,
 };
 use lie::{Cayley, Cotangent, Exp, LieGroup, Retraction, SE3, SO3, Scalar, Tangent, VectorSpace};
 
@@ -16,7 +16,7 @@ fn order<L: Lagrangian + Copy + 'static, const S: usize, R: Retraction>(
     steps: &[u32],
     tolerance: f64,
 ) {
-    let integrator = || Gauss::<_, S>::new((*lagrangian).hamiltonian()).with_retraction::<R>();
+    let integrator = || Gauss::new::<S>((*lagrangian).hamiltonian()).with_retraction::<R>();
     let order = laws::observed_order(integrator, state, 2.0, steps).unwrap();
     println!(
         "{} stages, {}: order {:.3} {:?}",
@@ -58,7 +58,7 @@ fn laws_of<L: Lagrangian + Copy + 'static, const S: usize, R: Retraction>(
     lagrangian: &L,
     state: &State<L::Group>,
 ) {
-    let mut integrator = Gauss::<_, S>::new((*lagrangian).hamiltonian()).with_retraction::<R>();
+    let mut integrator = Gauss::new::<S>((*lagrangian).hamiltonian()).with_retraction::<R>();
     for h in [0.1, -0.3] {
         let defect = laws::symplectic_defect(&mut integrator, state, h).unwrap();
         println!("{S} stages, {}, h = {h}: defect {defect:.1e}", R::NAME);
@@ -86,7 +86,7 @@ fn steps_are_symplectic() {
 
 #[test]
 fn momentum_does_not_feel_the_tolerance() {
-    let mut integrator = Gauss::<_, 3>::new(Top.hamiltonian()).with_tolerance(1e-6);
+    let mut integrator = Gauss::new::<3>(Top.hamiltonian()).with_tolerance(1e-6);
     let (mut state, mut residual) = (top(), 0.0_f64);
     let map = |s: &State<SO3>| momentum_map(&VERTICAL, &s.g, &s.mu);
     let start = map(&state);
@@ -103,7 +103,7 @@ fn momentum_does_not_feel_the_tolerance() {
 #[test]
 fn a_force_enters_at_the_order() {
     let system = || Forced::new(Top.hamiltonian(), Brake(0.3));
-    let integrator = || Gauss::<_, 3>::new(system());
+    let integrator = || Gauss::new::<3>(system());
     assert!(!integrator().is_symplectic());
     let order = laws::observed_order(integrator, &top(), 2.0, &[16, 24, 32]).unwrap();
     assert!((order.slope - 6.0).abs() < 0.2, "{order:?}");
@@ -115,8 +115,14 @@ struct Constant(Cotangent<6>);
 impl Force for Constant {
     type Group = SE3;
 
-    fn force<S: Scalar>(&self, _: S, _: &SE3<S>, _: &Tangent<6, S>) -> Cotangent<6, S> {
-        Cotangent(self.0.0.map(S::from_f64))
+    fn force<S: Scalar>(
+        &self,
+        _: Context<S>,
+        _: &SE3<S>,
+        _: &Tangent<6, S>,
+        out: &mut Cotangent<6, S>,
+    ) {
+        *out = Cotangent(self.0.0.map(S::from_f64));
     }
 }
 
@@ -129,7 +135,7 @@ fn variations_are_those_of_differences() {
     ]
     .concat();
     let (mut state, mut carried) = (sinking(), units.clone());
-    let mut integrator = Gauss::<_, 3>::new(Sinking.hamiltonian());
+    let mut integrator = Gauss::new::<3>(Sinking.hamiltonian());
     for _ in 0..20 {
         integrator
             .step_varied(&mut state, &mut carried, 0.1)
@@ -142,7 +148,7 @@ fn variations_are_those_of_differences() {
             state.g = state.g.compose(&SE3::exp(&eta));
             state.mu.add_scaled(s, &unit.mu);
             let force = Constant(unit.force * s);
-            let mut integrator = Gauss::<_, 3>::new(Forced::new(Sinking.hamiltonian(), force));
+            let mut integrator = Gauss::new::<3>(Forced::new(Sinking.hamiltonian(), force));
             for _ in 0..20 {
                 integrator.step(&mut state, 0.1).unwrap();
             }
@@ -167,7 +173,7 @@ fn the_origin_may_be_far() {
     let mut far = near.clone();
     far.g = SE3::exp(&Tangent([0.0, 0.0, 0.0, 1e6, -2e6, 0.0])).compose(&near.g);
     let (mut a, mut b) = (near, far);
-    let integrator = || Gauss::<_, 3>::new(Sinking.hamiltonian());
+    let integrator = || Gauss::new::<3>(Sinking.hamiltonian());
     let (mut here, mut there) = (integrator(), integrator());
     for _ in 0..100 {
         here.step(&mut a, 0.1).unwrap();
@@ -187,7 +193,7 @@ fn a_long_step_is_solved_to_rounding() {
     let fast = Top.state(0.0, top().g, &Tangent([0.6, -1.0, 2.0])).unwrap();
     let mut residual = 0.0_f64;
     for h in [0.4, 0.5, 0.6] {
-        let mut integrator = Gauss::<_, 1>::new(Top.hamiltonian());
+        let mut integrator = Gauss::new::<1>(Top.hamiltonian());
         integrator.step(&mut fast.clone(), h).unwrap();
         let defect = laws::symplectic_defect(&mut integrator, &fast, h).unwrap();
         println!("h = {h}: defect {defect:.1e}");
@@ -198,22 +204,22 @@ fn a_long_step_is_solved_to_rounding() {
 
 #[test]
 fn a_refused_step_changes_nothing_and_names_shorter_ones_until_one_would_do() {
-    let (mut state, mut integrator) = (top(), Gauss::<_, 4>::new(Top.hamiltonian()));
+    let (mut state, mut integrator) = (top(), Gauss::new::<4>(Top.hamiltonian()));
     integrator.step(&mut state, 0.1).unwrap();
     let before = state.clone();
     let error = integrator.step(&mut state, 50.0).unwrap_err();
-    let shorter = |error: &StepError| match error {
-        StepError::NotConverged {
+    let shorter = |error: &StepError| match error.cause {
+        Cause::NotConverged {
             hint: Hint::SmallerStep { h } | Hint::AnotherBranch { h },
             ..
-        } => *h,
+        } => h,
         _ => panic!("{error}"),
     };
     assert_eq!(state, before);
     let mut h = shorter(&error);
     // To 0.8 s, which the top takes.
     for _ in 0..5 {
-        match Gauss::<_, 4>::new(Top.hamiltonian()).step(&mut before.clone(), h) {
+        match Gauss::new::<4>(Top.hamiltonian()).step(&mut before.clone(), h) {
             Err(error) => h = shorter(&error),
             Ok(_) => return,
         }
@@ -223,15 +229,15 @@ fn a_refused_step_changes_nothing_and_names_shorter_ones_until_one_would_do() {
 
 #[test]
 fn what_is_wrong_before_the_step_is_named() {
-    let mut integrator = Gauss::<_, 2>::new(Top.hamiltonian());
+    let mut integrator = Gauss::new::<2>(Top.hamiltonian());
     for h in [0.0, f64::NAN, f64::INFINITY] {
         let error = integrator.step(&mut top(), h).unwrap_err();
-        assert!(matches!(error, StepError::InvalidStep { .. }), "{error}");
+        assert!(matches!(error.cause, Cause::InvalidStep), "{error}");
     }
     let mut state = top();
     state.mu[1] = f64::NAN;
     let error = integrator.step(&mut state, 0.1).unwrap_err();
-    assert!(matches!(error, StepError::NotFinite { .. }), "{error}");
+    assert!(matches!(error.cause, Cause::NotFinite), "{error}");
     let mut rest = top();
     rest.mu.set_zero();
     integrator.step(&mut rest, 0.1).unwrap();
@@ -241,12 +247,12 @@ fn what_is_wrong_before_the_step_is_named() {
 #[test]
 fn a_peek_is_of_the_method_s_order_and_no_step() {
     let error = |h: f64| {
-        let mut integrator = Gauss::<_, 3>::new(Top.hamiltonian());
+        let mut integrator = Gauss::new::<3>(Top.hamiltonian());
         let mut state = top();
         integrator.step(&mut state, h).unwrap();
         let ahead = integrator.peek(&state, 0.37 * h).unwrap();
         let mut exact = top();
-        let mut fine = Gauss::<_, 8>::new(Top.hamiltonian());
+        let mut fine = Gauss::new::<8>(Top.hamiltonian());
         for _ in 0..10 {
             fine.step(&mut exact, 0.137 * h).unwrap();
         }
@@ -259,7 +265,7 @@ fn a_peek_is_of_the_method_s_order_and_no_step() {
         "the local error is of order 7: {order}"
     );
 
-    let integrator = || Gauss::<_, 3>::new(Top.hamiltonian());
+    let integrator = || Gauss::new::<3>(Top.hamiltonian());
     let (mut a, mut b, mut plain, mut watched) = (top(), top(), integrator(), integrator());
     for _ in 0..20 {
         plain.step(&mut a, 0.1).unwrap();

@@ -1,6 +1,6 @@
 //! Hamilton's equations from the value alone.
 
-use dvi::{ContinuousSystem, HamiltonianSystem, Lagrangian, State};
+use dvi::{Context, ContinuousSystem, HamiltonianSystem, Lagrangian, State, System};
 use lie::{Jet, LieGroup, Mat3, Rn, SO3, Scalar, Tangent, VectorSpace};
 
 use crate::common::{Driven, INERTIA, LEVER, Sinking, Top, driven, sinking, top};
@@ -12,9 +12,9 @@ fn evaluate<L: Lagrangian>(
     state: &State<L::Group>,
 ) -> Answer<L::Group> {
     let State { t, g, mu } = state;
-    let mut workspace = system.workspace::<f64>(g);
+    let (at, mut work) = (Context::new(*t, system.parameters()), Default::default());
     let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
-    system.velocity_and_force::<f64>(*t, g, mu, &mut workspace, &mut xi, &mut tau);
+    system.velocity_and_force::<f64>(at, g, mu, &mut work, &mut xi, &mut tau);
     (xi, tau)
 }
 
@@ -51,16 +51,9 @@ fn derivatives_of_the_velocity_are_those_of_differences() {
         let g = Rn(state.g.0.map(J::constant));
         let mut mu = lie::Cotangent(state.mu.0.map(J::constant));
         mu.set(i, mu.get(i) + J::variable(0.0, 0));
-        let mut workspace = system.workspace::<J>(&g);
+        let (at, mut work) = (Context::new(J::constant(state.t), &[]), Default::default());
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
-        system.velocity_and_force::<J>(
-            J::constant(state.t),
-            &g,
-            &mu,
-            &mut workspace,
-            &mut xi,
-            &mut tau,
-        );
+        system.velocity_and_force::<J>(at, &g, &mu, &mut work, &mut xi, &mut tau);
         let width = 1e-5;
         let [ahead, behind] = [width, -width].map(|s| {
             let mut state = state.clone();
@@ -79,9 +72,12 @@ fn derivatives_of_the_velocity_are_those_of_differences() {
 /// No inertia about the third axis: no velocity for a momentum there.
 struct Needle;
 
-impl Lagrangian for Needle {
+impl System for Needle {
     type Group = SO3;
-    fn value<S: Scalar>(&self, _: &SO3<S>, omega: &Tangent<3, S>) -> S {
+}
+
+impl Lagrangian for Needle {
+    fn value<S: Scalar>(&self, _: Context<S>, _: &SO3<S>, omega: &Tangent<3, S>) -> S {
         (omega[0] * omega[0] + omega[1] * omega[1]) * S::from_f64(0.5)
     }
 }
@@ -101,9 +97,12 @@ fn a_degenerate_lagrangian_has_no_velocity() {
 #[derive(Clone, Copy)]
 struct Relativistic;
 
-impl Lagrangian for Relativistic {
+impl System for Relativistic {
     type Group = Rn<1>;
-    fn value<S: Scalar>(&self, _: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+}
+
+impl Lagrangian for Relativistic {
+    fn value<S: Scalar>(&self, _: Context<S>, _: &Rn<1, S>, v: &Tangent<1, S>) -> S {
         -(S::one() - v[0] * v[0]).sqrt()
     }
 }
@@ -122,16 +121,9 @@ fn a_lagrangian_with_a_domain_is_inverted_with_its_derivatives() {
         let v = system.velocity(&state)[0];
         assert!((v - p / gamma).abs() < 1e-14, "{p}: {v}");
         let (g, mu) = (Rn([J::constant(0.0)]), lie::Cotangent([J::variable(p, 0)]));
-        let mut workspace = system.workspace::<J>(&g);
+        let (at, mut work) = (Context::new(J::constant(0.0), &[]), Default::default());
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
-        system.velocity_and_force::<J>(
-            J::constant(0.0),
-            &g,
-            &mu,
-            &mut workspace,
-            &mut xi,
-            &mut tau,
-        );
+        system.velocity_and_force::<J>(at, &g, &mu, &mut work, &mut xi, &mut tau);
         let slope = xi[0].partial(0) * gamma.powi(3);
         // The inverse of a mass that grows as the cube.
         assert!((slope - 1.0).abs() < 1e-14 * gamma.powi(3), "{p}: {slope}");
@@ -143,9 +135,12 @@ fn a_lagrangian_with_a_domain_is_inverted_with_its_derivatives() {
 fn a_small_velocity_beside_a_large_linear_term_is_found() {
     #[derive(Clone, Copy)]
     struct Magnetic;
-    impl Lagrangian for Magnetic {
+    impl System for Magnetic {
         type Group = Rn<3>;
-        fn value<S: Scalar>(&self, _: &Rn<3, S>, v: &Tangent<3, S>) -> S {
+    }
+
+    impl Lagrangian for Magnetic {
+        fn value<S: Scalar>(&self, _: Context<S>, _: &Rn<3, S>, v: &Tangent<3, S>) -> S {
             let j = Mat3([[1.3, 0.4, 0.2], [0.4, 2.1, 0.3], [0.2, 0.3, 0.9]]);
             let v = v.vec3();
             v.dot(j.apply(v)).times(0.5) + lie::Vec3([0.7, -1.1, 0.4]).pair(v)

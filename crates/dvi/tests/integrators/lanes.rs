@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dvi::{ContinuousSystem, FirstVariation, Gauss, State, Variation};
+use dvi::{Context, ContinuousSystem, FirstVariation, Gauss, State, System, Variation};
 use lie::lanes::{self, InstructionSet, Job};
 use lie::{Batch, Cotangent, SO3, Scalar, Tangent, Vec3, VectorSpace};
 
@@ -16,18 +16,18 @@ struct Shaken<const INLINE: bool> {
     widest: Arc<AtomicUsize>,
 }
 
-impl<const INLINE: bool> ContinuousSystem for Shaken<INLINE> {
+impl<const INLINE: bool> System for Shaken<INLINE> {
     type Group = SO3;
+}
+
+impl<const INLINE: bool> ContinuousSystem for Shaken<INLINE> {
     type Workspace<S: Scalar> = ();
     const INLINE: bool = INLINE;
 
     #[inline(always)]
-    fn workspace<S: Scalar>(&self, _: &SO3<S>) {}
-
-    #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,
-        t: S,
+        at: Context<S>,
         r: &SO3<S>,
         mu: &Cotangent<3, S>,
         (): &mut (),
@@ -43,7 +43,7 @@ impl<const INLINE: bool> ContinuousSystem for Shaken<INLINE> {
             xi.0[i] = mu.0[i].times(1.0 / INERTIA[i]);
             i += 1;
         }
-        let weight = S::one() + Scalar::sin(t.times(3.0)).times(0.5);
+        let weight = S::one() + Scalar::sin(at.t.times(3.0)).times(0.5);
         // L has -w (R l)_z, which R exp(eta) changes by w (R^T e_z x l) . eta.
         let up: Vec3<S> = r.matrix().row(2);
         *tau = (up.cross(LEVER.lift()) * weight).into();
@@ -57,7 +57,7 @@ fn run<const INLINE: bool, const S: usize>(
 ) -> (State<SO3>, Vec<Variation<SO3>>, usize) {
     let system = Shaken::<INLINE>::default();
     let widest = system.widest.clone();
-    let gauss = Gauss::<_, S>::new(system);
+    let gauss = Gauss::new::<S>(system);
     let mut integrator = gauss.with_instructions(set);
     let (mut state, mut variations) = (top(), Variation::basis(&top().g));
     for _ in 0..10 {

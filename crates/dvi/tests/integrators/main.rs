@@ -1,5 +1,6 @@
 //! The integrators and their laws on small systems: one program, for what they share is compiled once.
 
+mod adapters;
 mod common;
 mod composition;
 mod domains;
@@ -9,6 +10,7 @@ mod hamiltonian;
 mod lanes;
 mod laws;
 mod naive;
+mod parameters;
 mod pilot;
 mod shapes;
 mod variational;

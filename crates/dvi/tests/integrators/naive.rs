@@ -4,8 +4,8 @@
 //! and without its share in the balance the whole is not.
 
 use dvi::{
-    ContinuousSystem, Gauss, Integrator, Lagrangian, State, StepError, StepReport, Variation, laws,
-    symplectic_form,
+    Context, ContinuousSystem, Gauss, Integrator, Lagrangian, State, StepError, StepReport,
+    Variation, laws, symplectic_form,
 };
 use lie::{Cayley, Cotangent, LieGroup, SO3, Tangent, VectorSpace};
 
@@ -46,7 +46,7 @@ impl Integrator for Naive {
 
     fn step(&mut self, state: &mut State<SO3>, h: f64) -> Result<StepReport, StepError> {
         let system = Top.hamiltonian();
-        let mut workspace = system.workspace::<f64>(&state.g);
+        let (at, mut work) = (Context::new(0.0, &[]), Default::default());
         let mut rates: Rates = [(Tangent::zero(), Cotangent::zero()); 2];
         for _ in 0..SWEEPS {
             let before = rates;
@@ -56,7 +56,7 @@ impl Integrator for Naive {
                 SO3::chart_enter_into::<Cayley>(&c, &pi, (&mut f, &mut mu));
                 let (mut xi, mut tau) = (Tangent::zero(), Cotangent::zero());
                 let g = state.g.compose(&f);
-                system.velocity_and_force::<f64>(0.0, &g, &mu, &mut workspace, &mut xi, &mut tau);
+                system.velocity_and_force::<f64>(at, &g, &mu, &mut work, &mut xi, &mut tau);
                 SO3::chart_rates_into::<Cayley>((&c, &pi), (&xi, &tau), (c_dot, pi_dot));
             }
         }
@@ -109,8 +109,8 @@ fn defect(integrator: &mut impl Integrator<Group = SO3>, h: f64) -> f64 {
 fn the_naive_chart_is_not_symplectic() {
     for h in [0.1, 0.2] {
         let naive = defect(&mut Naive, h);
-        let ours = defect(&mut Gauss::<_, 2>::new(Top.hamiltonian()), h);
-        let exact = laws::symplectic_defect(&mut Gauss::<_, 2>::new(Top.hamiltonian()), &fast(), h);
+        let ours = defect(&mut Gauss::new::<2>(Top.hamiltonian()), h);
+        let exact = laws::symplectic_defect(&mut Gauss::new::<2>(Top.hamiltonian()), &fast(), h);
         println!(
             "h = {h}: naive {naive:.1e}, variational {ours:.1e} by differences, {:.1e} by duals",
             exact.unwrap()
@@ -135,7 +135,7 @@ fn the_naive_chart_has_its_order_and_loses_the_momentum() {
     };
     let (naive, ours) = (
         drift(&mut Naive),
-        drift(&mut Gauss::<_, 2>::new(Top.hamiltonian())),
+        drift(&mut Gauss::new::<2>(Top.hamiltonian())),
     );
     println!("vertical momentum after 200 steps: naive {naive:.1e}, variational {ours:.1e}");
     assert!(naive > 1e-6 && ours < 1e-14, "{naive:e}, {ours:e}");

@@ -1,6 +1,6 @@
 //! The pilot keeps its word, and says what to do where it cannot.
 
-use dvi::{ContinuousSystem, Integrator, Lagrangian, Pilot, PilotError, State};
+use dvi::{Context, ContinuousSystem, Integrator, Lagrangian, Pilot, PilotError, State, System};
 use lie::{Cayley, Cotangent, LieGroup, Mat3, Retraction, Rn, SO3, Scalar, Tangent, VectorSpace};
 
 use crate::common::{Top, top};
@@ -14,10 +14,12 @@ struct Spinning;
 const ACROSS: f64 = 2.0;
 const ALONG: f64 = 0.5;
 
-impl Lagrangian for Spinning {
+impl System for Spinning {
     type Group = SO3;
+}
 
-    fn value<S: Scalar>(&self, _: &SO3<S>, omega: &Tangent<3, S>) -> S {
+impl Lagrangian for Spinning {
+    fn value<S: Scalar>(&self, _: Context<S>, _: &SO3<S>, omega: &Tangent<3, S>) -> S {
         let omega = omega.vec3();
         omega
             .dot(Mat3::diagonal([ACROSS, ACROSS, ALONG]).lift() * omega)
@@ -135,15 +137,16 @@ fn out_of_reach_names_an_accuracy_that_is_not() {
 #[derive(Clone)]
 struct Nowhere;
 
-impl ContinuousSystem for Nowhere {
+impl System for Nowhere {
     type Group = Rn<1>;
-    type Workspace<S: Scalar> = ();
+}
 
-    fn workspace<S: Scalar>(&self, _: &Rn<1, S>) {}
+impl ContinuousSystem for Nowhere {
+    type Workspace<S: Scalar> = ();
 
     fn velocity_and_force<S: Scalar>(
         &self,
-        _: S,
+        _: Context<S>,
         _: &Rn<1, S>,
         _: &Cotangent<1, S>,
         (): &mut (),

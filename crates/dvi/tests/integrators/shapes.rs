@@ -1,6 +1,6 @@
 //! Velocities that do not fit their configuration.
 
-use dvi::{Lagrangian, ShapeError};
+use dvi::{Context, Lagrangian, ShapeError, System};
 use lie::{AlgebraOver, LieGroup, Over, Power, Rn, Scalar, Tangent, VectorSpace};
 
 /// Two rows of particles of 2 kg, as many as the configuration has, with two in the first row at most.
@@ -8,16 +8,23 @@ struct Rows;
 
 type Group = (Power<Rn<1>>, Power<Rn<1>>);
 
-impl Lagrangian for Rows {
+impl System for Rows {
     type Group = Group;
-
-    fn value<S: Scalar>(&self, _: &Over<Group, S>, (a, b): &AlgebraOver<Group, S>) -> S {
-        let squares = a.iter().chain(b.iter()).map(|v| v[0] * v[0]);
-        squares.fold(S::zero(), |sum, square| sum + square)
-    }
 
     fn fits(&self, (a, _): &Group) -> bool {
         a.len() <= 2
+    }
+}
+
+impl Lagrangian for Rows {
+    fn value<S: Scalar>(
+        &self,
+        _: Context<S>,
+        _: &Over<Group, S>,
+        (a, b): &AlgebraOver<Group, S>,
+    ) -> S {
+        let squares = a.iter().chain(b.iter()).map(|v| v[0] * v[0]);
+        squares.fold(S::zero(), |sum, square| sum + square)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Derivatives of the flow, against central differences and the symplectic form.
 
 use dvi::{
-    DiscreteForce, DiscreteLagrangian, FirstVariation, Forced, Integrator, Lagrangian, LeftPoint,
-    Midpoint, State, Trapezoid, Variation, Variational, symplectic_form,
+    Context, DiscreteForce, DiscreteLagrangian, FirstVariation, Forced, Integrator, Lagrangian,
+    Quadrature, State, Variation, Variational, symplectic_form,
 };
 use lie::{DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
@@ -22,16 +22,17 @@ impl<G: RealGroup> DiscreteForce for Constant<G> {
 
     fn impulses<S: Scalar>(
         &self,
-        _: S,
-        g: &Over<G, S>,
+        _: Context<S>,
+        _: &Over<G, S>,
         _: &Over<G, S>,
         h: S,
-    ) -> [DualOver<G, S>; 2] {
-        let mut impulse = g.zero_dual();
-        for i in 0..impulse.dim() {
-            impulse.set(i, h * S::from_f64(0.5 * self.0.get(i)));
+        out: [&mut DualOver<G, S>; 2],
+    ) {
+        for impulse in out {
+            for i in 0..impulse.dim() {
+                impulse.set(i, h * S::from_f64(0.5 * self.0.get(i)));
+            }
         }
-        [impulse.clone(), impulse]
     }
 }
 
@@ -92,17 +93,17 @@ fn against_differences<L: DiscreteLagrangian + Clone>(lagrangian: &L, start: &St
 
 #[test]
 fn the_flow_s_derivative_is_that_of_differences() {
-    against_differences(&Top.discretise::<Midpoint>(), &top());
-    against_differences(&Top.discretise::<LeftPoint>(), &top());
-    against_differences(&Sinking.discretise::<Trapezoid>(), &sinking());
-    against_differences(&Driven.discretise::<Midpoint>(), &driven());
+    against_differences(&Top.discretise(Quadrature::Midpoint), &top());
+    against_differences(&Top.discretise(Quadrature::LeftPoint), &top());
+    against_differences(&Sinking.discretise(Quadrature::Trapezoid), &sinking());
+    against_differences(&Driven.discretise(Quadrature::Midpoint), &driven());
 }
 
 #[test]
 fn the_flow_is_symplectic_over_many_steps() {
     let units = Variation::basis(&sinking().g);
     let (mut state, mut carried) = (sinking(), units.clone());
-    let mut integrator = Variational::new(Sinking.discretise::<Midpoint>());
+    let mut integrator = Variational::new(Sinking.discretise(Quadrature::Midpoint));
     for _ in 0..1000 {
         integrator.step_varied(&mut state, &mut carried, H).unwrap();
     }
@@ -124,7 +125,8 @@ fn the_flow_is_symplectic_over_many_steps() {
 #[test]
 fn a_refused_step_changes_neither_state_nor_variations() {
     let (mut state, mut carried) = (top(), Variation::basis(&top().g));
-    let mut integrator = Variational::new(Top.discretise::<Midpoint>()).with_tolerance(1e-19);
+    let mut integrator =
+        Variational::new(Top.discretise(Quadrature::Midpoint)).with_tolerance(1e-19);
     integrator
         .step_varied(&mut state, &mut carried, H)
         .unwrap_err();
@@ -136,7 +138,7 @@ fn a_refused_step_changes_neither_state_nor_variations() {
 fn the_trajectory_is_that_of_plain_steps() {
     let (mut a, mut b) = (top(), top());
     let mut carried = Variation::forces(&a.g);
-    let integrator = || Variational::new(Top.discretise::<Midpoint>());
+    let integrator = || Variational::new(Top.discretise(Quadrature::Midpoint));
     let (mut varied, mut plain) = (integrator(), integrator());
     for _ in 0..50 {
         varied.step_varied(&mut a, &mut carried, H).unwrap();

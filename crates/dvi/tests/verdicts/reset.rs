@@ -1,16 +1,25 @@
 //! An integrator that was reset steps as a new one, bit by bit.
 
-use dvi::{Composition, Gauss, Integrator, Lagrangian, LeftPoint, Midpoint, State, Variational};
+use dvi::{
+    Composition, Context, Gauss, Integrator, Lagrangian, Quadrature, State, System, Variational,
+};
 use lie::{LieGroup, Mat3, R3, SO3, Scalar, Tangent};
 
 /// A body in a field: what runs before leaves guesses, matrices and compensations behind.
 #[derive(Clone, Copy)]
 struct Body;
 
-impl Lagrangian for Body {
+impl System for Body {
     type Group = (SO3, R3);
+}
 
-    fn value<S: Scalar>(&self, g: &(SO3<S>, R3<S>), xi: &(Tangent<3, S>, Tangent<3, S>)) -> S {
+impl Lagrangian for Body {
+    fn value<S: Scalar>(
+        &self,
+        _: Context<S>,
+        g: &(SO3<S>, R3<S>),
+        xi: &(Tangent<3, S>, Tangent<3, S>),
+    ) -> S {
         let (omega, v) = (xi.0.vec3(), g.0.inverse_rotate(xi.1.vec3()));
         let j = Mat3::diagonal([1.0, 1.5, 2.0]).lift::<S>();
         let m = Mat3::diagonal([1.0, 3.0, 2.0]).lift::<S>();
@@ -57,10 +66,10 @@ fn check<I: Integrator<Group = (SO3, R3)>>(name: &str, make: impl Fn() -> I) {
 #[test]
 fn what_ran_before_does_not_change_a_bit() {
     check("midpoint", || {
-        Variational::new(Body.discretise::<Midpoint>())
+        Variational::new(Body.discretise(Quadrature::Midpoint))
     });
     check("composition", || {
-        Composition::<_, 4>::new(Body.discretise::<LeftPoint>())
+        Composition::new::<4>(Body.discretise(Quadrature::LeftPoint))
     });
-    check("gauss", || Gauss::<_, 3>::new(Body.hamiltonian()));
+    check("gauss", || Gauss::new::<3>(Body.hamiltonian()));
 }

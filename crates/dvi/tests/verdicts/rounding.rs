@@ -1,7 +1,8 @@
 //! Rounding is told from a step that is not solved by what it is the rounding of.
 
 use dvi::{
-    ContinuousSystem, Gauss, Integrator, Lagrangian, Midpoint, State, StepError, Variational,
+    Cause, Context, ContinuousSystem, Gauss, Integrator, Lagrangian, Quadrature, State, System,
+    Variational,
 };
 use lie::{
     AlgebraOver, Cotangent, DualOver, LieGroup, Over, Power, Rn, SE3, Scalar, Tangent, Vec3,
@@ -12,10 +13,12 @@ use lie::{
 #[derive(Clone, Copy)]
 struct Far(f64);
 
-impl Lagrangian for Far {
+impl System for Far {
     type Group = Rn<1>;
+}
 
-    fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+impl Lagrangian for Far {
+    fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
         let stretch = x.0[0] - S::from_f64(self.0);
         v[0] * v[0] * S::from_f64(0.5) - (stretch * stretch).times(50.0)
     }
@@ -40,9 +43,9 @@ fn error_of_far(mut integrator: impl Integrator<Group = Rn<1>>, place: f64) -> f
 fn gauss_solves_a_spring_far_from_the_origin() {
     for place in [7e6, 1e3, 1e9] {
         let errors = [
-            error_of_far(Gauss::<_, 3>::new(Far(place).hamiltonian()), place),
-            error_of_far(Gauss::<_, 4>::new(Far(place).hamiltonian()), place),
-            error_of_far(Gauss::<_, 8>::new(Far(place).hamiltonian()), place),
+            error_of_far(Gauss::new::<3>(Far(place).hamiltonian()), place),
+            error_of_far(Gauss::new::<4>(Far(place).hamiltonian()), place),
+            error_of_far(Gauss::new::<8>(Far(place).hamiltonian()), place),
         ];
         println!("{place:e}: {errors:?}");
         // Each step adds a rounding or two of the place, which the spring turns around.
@@ -55,10 +58,12 @@ fn gauss_solves_a_spring_far_from_the_origin() {
 #[derive(Clone, Copy)]
 struct Penalty;
 
-impl Lagrangian for Penalty {
+impl System for Penalty {
     type Group = Rn<2>;
+}
 
-    fn value<S: Scalar>(&self, x: &Rn<2, S>, v: &Tangent<2, S>) -> S {
+impl Lagrangian for Penalty {
+    fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<2, S>, v: &Tangent<2, S>) -> S {
         let ([x, y], [u, w]) = (x.0, v.0);
         let stretch = (x * x + y * y).sqrt() - S::one();
         (u * u + w * w).times(0.5) - (stretch * stretch).times(0.5e8) - y.times(9.81)
@@ -72,7 +77,7 @@ fn a_stiff_penalty_is_solved_by_default() {
         .unwrap();
     let energy = |state: &State<Rn<2>>| Penalty.hamiltonian().energy(state);
     let start = energy(&state);
-    let mut integrator = Variational::new(Penalty.discretise::<Midpoint>());
+    let mut integrator = Variational::new(Penalty.discretise(Quadrature::Midpoint));
     let (mut worst, mut iterations) = (0.0_f64, 0);
     for _ in 0..5000 {
         let report = integrator
@@ -102,17 +107,18 @@ const BEND: f64 = 5.0;
 const MASS: f64 = 0.02;
 const INERTIA: [f64; 3] = [2e-6, 2e-5, 2e-5];
 
-impl ContinuousSystem for Beam {
+impl System for Beam {
     type Group = Power<SE3>;
+}
+
+impl ContinuousSystem for Beam {
     type Workspace<S: Scalar> = ();
     const INLINE: bool = true;
-
-    fn workspace<S: Scalar>(&self, _: &Over<Self::Group, S>) {}
 
     #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,
-        _: S,
+        _: Context<S>,
         g: &Over<Self::Group, S>,
         mu: &DualOver<Self::Group, S>,
         (): &mut (),
@@ -160,9 +166,17 @@ fn bent(nodes: usize) -> State<Power<SE3>> {
 #[test]
 fn the_beam_has_the_forces_of_its_potential() {
     struct Potential;
-    impl Lagrangian for Potential {
+    impl System for Potential {
         type Group = Power<SE3>;
-        fn value<S: Scalar>(&self, g: &Power<SE3<S>>, xi: &Power<Tangent<6, S>>) -> S {
+    }
+
+    impl Lagrangian for Potential {
+        fn value<S: Scalar>(
+            &self,
+            _: Context<S>,
+            g: &Power<SE3<S>>,
+            xi: &Power<Tangent<6, S>>,
+        ) -> S {
             let kinetic = xi.iter().map(|xi| {
                 let (omega, v) = xi.split();
                 let spins = (0..3).map(|k| omega[k] * omega[k] * S::from_f64(INERTIA[k]));
@@ -197,12 +211,13 @@ fn the_beam_has_the_forces_of_its_potential() {
         (xi, tau)
     };
     let (by_hand, by_value) = (Beam { nodes: 4 }, Potential.hamiltonian());
+    let at = Context::new(0.0, &[]);
     let a = rates(&|xi, tau| {
-        by_hand.velocity_and_force::<f64>(0.0, &state.g, &state.mu, &mut (), xi, tau)
+        by_hand.velocity_and_force::<f64>(at, &state.g, &state.mu, &mut (), xi, tau)
     });
     let b = rates(&|xi, tau| {
-        let mut workspace = by_value.workspace::<f64>(&state.g);
-        by_value.velocity_and_force::<f64>(0.0, &state.g, &state.mu, &mut workspace, xi, tau);
+        let mut work = Default::default();
+        by_value.velocity_and_force::<f64>(at, &state.g, &state.mu, &mut work, xi, tau);
     });
     for i in 0..a.0.dim() {
         assert!((a.0.get(i) - b.0.get(i)).abs() < 1e-10 * b.0.max_magnitude());
@@ -213,7 +228,7 @@ fn the_beam_has_the_forces_of_its_potential() {
 #[test]
 fn a_long_beam_is_solved_to_rounding_in_few_sweeps() {
     let nodes = 80;
-    let mut integrator = Gauss::<_, 3>::new(Beam { nodes });
+    let mut integrator = Gauss::new::<3>(Beam { nodes });
     let (mut state, mut iterations) = (bent(nodes), vec![]);
     for _ in 0..40 {
         let report = integrator
@@ -225,7 +240,7 @@ fn a_long_beam_is_solved_to_rounding_in_few_sweeps() {
     let most = iterations.iter().max().copied().unwrap_or(0);
     assert!(most <= 30, "{iterations:?}");
     let loose = {
-        let mut integrator = Gauss::<_, 3>::new(Beam { nodes }).with_tolerance(1e-13);
+        let mut integrator = Gauss::new::<3>(Beam { nodes }).with_tolerance(1e-13);
         let mut state = bent(nodes);
         for _ in 0..40 {
             integrator.step(&mut state, 5e-5).unwrap();
@@ -240,9 +255,9 @@ fn a_long_beam_is_solved_to_rounding_in_few_sweeps() {
 #[test]
 fn a_system_too_large_for_a_dense_matrix_is_refused_at_once() {
     let nodes = 80;
-    let mut integrator = Gauss::<_, 4>::new(Beam { nodes });
+    let mut integrator = Gauss::new::<4>(Beam { nodes });
     let error = integrator.step(&mut bent(nodes), 0.1).unwrap_err();
-    let StepError::NotConverged { iterations, .. } = error else {
+    let Cause::NotConverged { iterations, .. } = error.cause else {
         panic!("{error}");
     };
     assert!(iterations < 100, "{error}");

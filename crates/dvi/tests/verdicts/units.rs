@@ -1,6 +1,8 @@
 //! What is called a metre, a kilogram or a second changes no bit of a step by powers of two.
 
-use dvi::{Composition, Gauss, Integrator, Lagrangian, LeftPoint, Midpoint, State, Variational};
+use dvi::{
+    Composition, Context, Gauss, Integrator, Lagrangian, Quadrature, State, System, Variational,
+};
 use lie::{LieGroup, Mat3, R3, SO3, Scalar, Tangent, Vec3};
 
 /// A body in a fluid with a weight off its centre, in units of its own.
@@ -11,10 +13,17 @@ struct Body {
     time: f64,
 }
 
-impl Lagrangian for Body {
+impl System for Body {
     type Group = (SO3, R3);
+}
 
-    fn value<S: Scalar>(&self, g: &(SO3<S>, R3<S>), xi: &(Tangent<3, S>, Tangent<3, S>)) -> S {
+impl Lagrangian for Body {
+    fn value<S: Scalar>(
+        &self,
+        _: Context<S>,
+        g: &(SO3<S>, R3<S>),
+        xi: &(Tangent<3, S>, Tangent<3, S>),
+    ) -> S {
         let Self { length, mass, time } = *self;
         let (omega, v) = (xi.0.vec3(), g.0.inverse_rotate(xi.1.vec3()));
         let j = Mat3::diagonal([1.0, 1.5, 2.0].map(|j| j * mass * length * length)).lift::<S>();
@@ -61,15 +70,18 @@ fn powers_of_two_change_no_bit() {
     };
     let runs = |body: Body| {
         [
-            body.run(Variational::new(body.discretise::<LeftPoint>()), 0.01),
-            body.run(Variational::new(body.discretise::<Midpoint>()), 0.1),
             body.run(
-                Composition::<_, 4>::new(body.discretise::<LeftPoint>()),
+                Variational::new(body.discretise(Quadrature::LeftPoint)),
+                0.01,
+            ),
+            body.run(Variational::new(body.discretise(Quadrature::Midpoint)), 0.1),
+            body.run(
+                Composition::new::<4>(body.discretise(Quadrature::LeftPoint)),
                 0.1,
             ),
-            body.run(Gauss::<_, 2>::new(body.hamiltonian()), 0.1),
+            body.run(Gauss::new::<2>(body.hamiltonian()), 0.1),
             // So long that Newton's method is needed.
-            body.run(Gauss::<_, 4>::new(body.hamiltonian()), 0.4),
+            body.run(Gauss::new::<4>(body.hamiltonian()), 0.4),
         ]
     };
     let expected = runs(natural);

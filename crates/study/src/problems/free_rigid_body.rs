@@ -1,6 +1,6 @@
 //! The free rigid body on $SO(3)$.
 
-use dvi::{Lagrangian, State};
+use dvi::{Context, Lagrangian, State, System};
 use lie::{Cotangent, LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
 
 use super::jacobi::{Jacobi, Phase, ThirdKind};
@@ -12,10 +12,12 @@ pub struct FreeRigidBody {
     moments: [f64; 3],
 }
 
-impl Lagrangian for FreeRigidBody {
+impl System for FreeRigidBody {
     type Group = SO3;
+}
 
-    fn value<S: Scalar>(&self, _: &SO3<S>, omega: &Tangent<3, S>) -> S {
+impl Lagrangian for FreeRigidBody {
+    fn value<S: Scalar>(&self, _: Context<S>, _: &SO3<S>, omega: &Tangent<3, S>) -> S {
         let [a, b, c] = self.moments.map(S::from_f64);
         let [p, q, r] = omega.0;
         (a * p * p + b * q * q + c * r * r) * S::from_f64(0.5)

@@ -1,6 +1,6 @@
 //! Lagrange's top on $SO(3)$.
 
-use dvi::{Lagrangian, State};
+use dvi::{Context, Lagrangian, State, System};
 use lie::{Cotangent, LieGroup, SO3, Scalar, Tangent, Vec3};
 
 use super::jacobi::{Jacobi, Phase, ThirdKind};
@@ -17,10 +17,12 @@ pub struct HeavyTop {
     weight: f64,
 }
 
-impl Lagrangian for HeavyTop {
+impl System for HeavyTop {
     type Group = SO3;
+}
 
-    fn value<S: Scalar>(&self, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
+impl Lagrangian for HeavyTop {
+    fn value<S: Scalar>(&self, _: Context<S>, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
         let [a, c, w] = [self.transverse, self.axial, self.weight].map(S::from_f64);
         let [p, q, s] = omega.0;
         (a * (p * p + q * q) + c * s * s) * S::from_f64(0.5) - w * r.matrix()[(2, 2)]

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use articulated_fluid::Ellipsoid;
-use dvi::Lagrangian;
+use dvi::{Context, Lagrangian, System};
 use lie::{SE3, Scalar, Tangent};
 
 use super::{NamedSymmetry, Problem, ProblemError, Steady, checked, finite, left, positive, right};
@@ -19,10 +19,12 @@ pub struct Kirchhoff {
     masses: [f64; 3],
 }
 
-impl Lagrangian for Kirchhoff {
+impl System for Kirchhoff {
     type Group = SE3;
+}
 
-    fn value<S: Scalar>(&self, _: &SE3<S>, xi: &Tangent<6, S>) -> S {
+impl Lagrangian for Kirchhoff {
+    fn value<S: Scalar>(&self, _: Context<S>, _: &SE3<S>, xi: &Tangent<6, S>) -> S {
         let factors = self.inertias.iter().chain(&self.masses);
         let terms = factors.zip(xi.0).map(|(&i, x)| S::from_f64(i) * x * x);
         terms.fold(S::zero(), |sum, term| sum + term) * S::from_f64(0.5)

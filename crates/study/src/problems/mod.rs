@@ -11,13 +11,13 @@
 //! body's frame. Elliptic integrals are Carlson's (crate `ellip`), functions by the arithmetic–geometric mean.
 //!
 //! ```
-//! use dvi::{Integrator, Lagrangian, Midpoint, Variational};
+//! use dvi::{Integrator, Lagrangian, Quadrature, Variational};
 //! use lie::SO3;
 //! use study::problems::{FreeRigidBody, Solution};
 //!
 //! let problem = FreeRigidBody::new([1.0, 2.0, 3.0])?.problem(SO3::identity(), [1.0, 0.1, 1.0])?;
 //! let mut state = problem.start.clone();
-//! let mut integrator = Variational::new(problem.lagrangian.discretise::<Midpoint>());
+//! let mut integrator = Variational::new(problem.lagrangian.discretise(Quadrature::Midpoint));
 //! for _ in 0..100 {
 //!     integrator.step(&mut state, problem.time / 1000.0)?;
 //! }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dvi::{HamiltonianSystem, Lagrangian, State};
+use dvi::{Context, HamiltonianSystem, Lagrangian, State, System};
 use lie::{Cotangent, LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
 
 use super::jacobi::Jacobi;
@@ -21,10 +21,12 @@ pub struct Pendulum {
     centre: [f64; 3],
 }
 
-impl Lagrangian for Pendulum {
+impl System for Pendulum {
     type Group = SO3;
+}
 
-    fn value<S: Scalar>(&self, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
+impl Lagrangian for Pendulum {
+    fn value<S: Scalar>(&self, _: Context<S>, r: &SO3<S>, omega: &Tangent<3, S>) -> S {
         let [a, b, c] = self.moments.map(S::from_f64);
         let [p, q, s] = omega.0;
         let height = r.matrix().row(2).dot(Vec3(self.centre).lift());

@@ -1,8 +1,8 @@
 //! Methods without their types.
 
 use dvi::{
-    Composition, Discretised, FirstVariation, Gauss, Integrator, Lagrangian, Midpoint, Quadrature,
-    State, StepError, StepReport, Variation, Variational,
+    Composition, Discretised, FirstVariation, Gauss, Integrator, Lagrangian, Quadrature, State,
+    StepError, StepReport, Variation, Variational,
 };
 use lie::{RealGroup, Retraction};
 
@@ -29,12 +29,14 @@ where
 
 /// Gauss collocation of `S` stages in Cayley's chart.
 pub fn gauss<L: Lagrangian + 'static, const S: usize>(system: L) -> Method<L::Group> {
-    Method::new(Gauss::<_, S>::new(system.hamiltonian()))
+    Method::new(Gauss::new::<S>(system.hamiltonian()))
 }
 
 /// The composition of order `P` of the midpoint rule.
 pub fn composition<L: Lagrangian + Clone + 'static, const P: u32>(system: L) -> Method<L::Group> {
-    Method::new(Composition::<_, P>::new(system.discretise::<Midpoint>()))
+    Method::new(Composition::new::<P>(
+        system.discretise(Quadrature::Midpoint),
+    ))
 }
 
 impl<G: RealGroup> Integrator for Method<G> {

@@ -1,8 +1,8 @@
 //! Methods that are wrong on purpose: what measurements and laws must not pass.
 
 use dvi::{
-    Derivatives, DiscreteLagrangian, FirstVariation, Integrator, State, StepError, StepReport,
-    Variation, Variational, legendre_plus,
+    Context, Derivatives, DiscreteLagrangian, FirstVariation, Integrator, State, StepError,
+    StepReport, System, Variation, Variational, legendre_plus,
 };
 use lie::{LieGroup, Mat3, RealGroup, SO3, Scalar, Vec3, VectorSpace};
 
@@ -36,10 +36,14 @@ fn lever<S: Scalar>() -> Vec3<S> {
     Vec3([0.0, 0.0, TOP[2]]).lift()
 }
 
-impl DiscreteLagrangian for ByHand {
+impl System for ByHand {
     type Group = SO3;
+}
 
-    fn value<S: Scalar>(&self, r: &SO3<S>, f: &SO3<S>, h: S) -> S {
+impl DiscreteLagrangian for ByHand {
+    type Workspace<S: Scalar> = ();
+
+    fn value<S: Scalar>(&self, _: Context<S>, r: &SO3<S>, f: &SO3<S>, h: S) -> S {
         let kinetic = -(f.symmetric_minus_identity() * jd()).trace() / h;
         kinetic - h * r.rotate(lever())[2]
     }

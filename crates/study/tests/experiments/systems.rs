@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use dvi::laws::{self, LawError};
-use dvi::{Integrator, Lagrangian, LeftPoint, Midpoint, RightPoint, State, Trapezoid, Variational};
+use dvi::{Integrator, Lagrangian, Quadrature, State, Variational};
 use lie::{Cayley, Exp, SO3, Vec3};
 use study::problems::{Problem, Solution, Translation};
 use study::survey::wrong::{ByHand, Mistake, Rederived};

@@ -1,7 +1,7 @@
 //! The ellipsoid in a perfect fluid.
 
 use articulated_fluid::Ellipsoid;
-use dvi::{Integrator, Lagrangian, Midpoint, Variational};
+use dvi::{Integrator, Lagrangian, Quadrature, Variational};
 use lie::{Exp, LieGroup, SE3, Tangent};
 use study::on_group;
 use study::problems::{Kirchhoff, Problem, ProblemError, Solution, Steady};
@@ -106,7 +106,7 @@ fn a_variational_integrator_keeps_constant_motions() {
             let mut state = problem.start.clone();
             let discrete = problem
                 .lagrangian
-                .discretise::<Midpoint>()
+                .discretise(Quadrature::Midpoint)
                 .with_retraction::<Exp>();
             let mut integrator = Variational::new(discrete).with_tolerance(1e-15);
             let mut worst = 0.0_f64;

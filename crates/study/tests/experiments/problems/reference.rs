@@ -2,7 +2,7 @@
 
 use articulated_fluid::Scene;
 use articulated_fluid::scene::EXAMPLE;
-use dvi::{Force, Forced, Lagrangian, State};
+use dvi::{Context, Force, Forced, Lagrangian, State, System};
 use lie::{Cotangent, LieGroup, Rn, SO3, Scalar, Tangent, VectorSpace};
 use study::baseline::{Pair, Tolerance, integrate};
 use study::on_group::{self, ReferenceError};
@@ -14,9 +14,12 @@ use super::{TIGHT, distance};
 /// A particle of 1 kg on a spring of 1 N/m.
 struct Spring;
 
-impl Lagrangian for Spring {
+impl System for Spring {
     type Group = Rn<1>;
-    fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+}
+
+impl Lagrangian for Spring {
+    fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
     }
 }

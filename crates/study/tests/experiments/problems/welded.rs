@@ -1,6 +1,6 @@
 //! A rigid body cut in two: halves that move as one, and halves held together by springs.
 
-use dvi::{Integrator, Lagrangian, Midpoint, State, Variational};
+use dvi::{Context, Integrator, Lagrangian, Quadrature, State, System, Variational};
 use lie::{AlgebraOver, LieGroup, Mat3, Over, SE3, SO3, Scalar, Tangent, Vec3};
 use study::baseline::Tolerance;
 use study::on_group;
@@ -60,9 +60,12 @@ fn whole([a, b]: [Part; 2]) -> Part {
 /// Parts that move as one.
 struct Rigid(Vec<Part>);
 
-impl Lagrangian for Rigid {
+impl System for Rigid {
     type Group = SE3;
-    fn value<S: Scalar>(&self, _: &SE3<S>, xi: &Tangent<6, S>) -> S {
+}
+
+impl Lagrangian for Rigid {
+    fn value<S: Scalar>(&self, _: Context<S>, _: &SE3<S>, xi: &Tangent<6, S>) -> S {
         let energies = self.0.iter().map(|part| part.kinetic_energy(xi));
         energies.fold(S::zero(), |sum, energy| sum + energy)
     }
@@ -83,7 +86,12 @@ const POINTS: [[f64; 3]; 4] = [
 
 impl Lagrangian for Sprung {
     type Group = [SE3; 2];
-    fn value<S: Scalar>(&self, [a, b]: &Over<[SE3; 2], S>, [u, v]: &AlgebraOver<[SE3; 2], S>) -> S {
+    fn value<S: Scalar>(
+        &self,
+        _: Context<S>,
+        [a, b]: &Over<[SE3; 2], S>,
+        [u, v]: &AlgebraOver<[SE3; 2], S>,
+    ) -> S {
         let place =
             |g: &SE3<S>, point: [f64; 3]| g.rotation.rotate(Vec3(point).lift()) + g.translation;
         let stretch = |point| (place(a, point) - place(b, point)).norm_squared();
@@ -106,8 +114,8 @@ fn halves_that_move_as_one_are_the_whole() {
     let body = Rigid(vec![whole(parts())]);
     let mut a = halves.state(0.0, pose(), &VELOCITY).expect("a state");
     let mut b = body.state(0.0, pose(), &VELOCITY).expect("a state");
-    let mut left = Variational::new(halves.discretise::<Midpoint>()).with_tolerance(1e-15);
-    let mut right = Variational::new(body.discretise::<Midpoint>()).with_tolerance(1e-15);
+    let mut left = Variational::new(halves.discretise(Quadrature::Midpoint)).with_tolerance(1e-15);
+    let mut right = Variational::new(body.discretise(Quadrature::Midpoint)).with_tolerance(1e-15);
     let mut worst = 0.0_f64;
     for step in 0..1000 {
         left.step(&mut a, 0.02).expect("a step");

@@ -1,0 +1,150 @@
+//! The steps of a method, whatever scalar they are computed with and whatever chart they are in.
+
+use core::marker::PhantomData;
+
+use lie::lanes::{InstructionSet, Job, run};
+use lie::{Batch, LieGroup, Retraction, VectorSpace};
+
+use super::newton::SweepNewton;
+use super::sweep::End;
+use super::tableau::Tableau;
+use super::work::{Limits, Method, Start, Work};
+use crate::system::Dual;
+use crate::{Cause, ContinuousSystem, State, StepReport, System, Variation};
+
+/// The steps of a method, over a scalar that was chosen at run time.
+pub(super) trait Stepper<C: ContinuousSystem>: Send + Sync {
+    /// Whether the storage is for states of the shape of `state`.
+    fn fits(&self, g: &C::Group) -> bool;
+
+    /// A dual element of the storage's shape.
+    fn shape(&self) -> &Dual<C>;
+
+    /// Solves the stages of a step; the state stays as it is.
+    fn solve(
+        &mut self,
+        method: Method<C>,
+        start: Start<C>,
+        limits: Limits,
+    ) -> Result<StepReport, Cause>;
+
+    /// The state after the step that was solved.
+    fn ahead(&self, start: Start<C>) -> State<C::Group>;
+
+    /// Carries variations over the step that was solved.
+    fn carry(&mut self, method: Method<C>, start: Start<C>, variations: &mut [Variation<C::Group>]);
+
+    /// Takes the step that was solved; `None` where a number is not finite, or where the system is not defined.
+    fn accept(&mut self, system: &C, state: &mut State<C::Group>, h: f64) -> Option<()>;
+}
+
+/// The steps in the chart of `R`.
+struct InChart<C: ContinuousSystem, S: Batch<Item = f64>, R> {
+    work: Work<C, S>,
+    retraction: PhantomData<fn() -> R>,
+}
+
+impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for InChart<C, S, R> {
+    fn fits(&self, g: &C::Group) -> bool {
+        self.work.sweep.end.f.same_shape(g)
+    }
+
+    fn shape(&self) -> &Dual<C> {
+        &self.work.sweep.end.mu
+    }
+
+    fn solve(
+        &mut self,
+        method: Method<C>,
+        start: Start<C>,
+        limits: Limits,
+    ) -> Result<StepReport, Cause> {
+        self.work.solve::<R>(method, start, limits)
+    }
+
+    fn ahead(&self, (state, h): Start<C>) -> State<C::Group> {
+        let mut ahead = state.clone();
+        let End { f, mu, .. } = &self.work.sweep.end;
+        ahead.t += h;
+        ahead.g = state.g.compose(f);
+        ahead.mu.copy_from(mu);
+        ahead
+    }
+
+    fn carry(
+        &mut self,
+        (system, tableau): Method<C>,
+        start: Start<C>,
+        variations: &mut [Variation<C::Group>],
+    ) {
+        let Work {
+            sweep, linearised, ..
+        } = &mut self.work;
+        let g = &start.0.g;
+        let linearised = linearised.get_or_insert_with(|| SweepNewton::new(tableau, g));
+        linearised.weigh(sweep.weights());
+        linearised.carry::<R, S>(system, start, sweep, variations);
+    }
+
+    fn accept(&mut self, system: &C, state: &mut State<C::Group>, h: f64) -> Option<()> {
+        let Work {
+            sweep,
+            update,
+            predictor,
+            start,
+            drift,
+            ..
+        } = &mut self.work;
+        let End { f, impulse, mu, .. } = &sweep.end;
+        let after = update.advance(state, h, (f, impulse, mu))?;
+        if !system.is_defined(after.t, &after.g) {
+            update.forget();
+            return None;
+        }
+        state.mu.write(drift);
+        for (drift, start) in drift.iter_mut().zip(start) {
+            *drift = *start - *drift;
+        }
+        state.copy_from(after);
+        predictor.record(h, sweep);
+        Some(())
+    }
+}
+
+/// What [`stepper`] is in the chart of some retraction.
+pub(super) type MakeStepper<C> =
+    fn(InstructionSet, &Tableau, &<C as System>::Group) -> Box<dyn Stepper<C>>;
+
+/// Storage for the steps from states of the shape of `g`, computed by these instructions.
+pub(super) fn stepper<C: ContinuousSystem + 'static, R: Retraction>(
+    instructions: InstructionSet,
+    tableau: &Tableau,
+    g: &C::Group,
+) -> Box<dyn Stepper<C>> {
+    let new = New::<C, R> {
+        tableau,
+        g,
+        retraction: PhantomData,
+    };
+    match C::INLINE {
+        true => run(instructions, new),
+        false => new.run::<f64>(),
+    }
+}
+
+struct New<'a, C: ContinuousSystem, R> {
+    tableau: &'a Tableau,
+    g: &'a C::Group,
+    retraction: PhantomData<R>,
+}
+
+impl<C: ContinuousSystem + 'static, R: Retraction> Job for New<'_, C, R> {
+    type Output = Box<dyn Stepper<C>>;
+
+    fn run<S: Batch<Item = f64>>(self) -> Box<dyn Stepper<C>> {
+        Box::new(InChart::<C, S, R> {
+            work: Work::new(self.tableau, self.g),
+            retraction: PhantomData,
+        })
+    }
+}

@@ -1,0 +1,43 @@
+//! Dual numbers along the basis of a vector space, in chunks.
+
+use lie::{Jet, VectorSpace};
+use num_traits::Zero;
+
+/// Calls `body` with the first direction of every chunk.
+#[inline(always)]
+pub(crate) fn for_each_chunk(dim: usize, body: impl FnMut(usize)) {
+    (0..dim).step_by(lie::JET_DIRECTIONS).for_each(body);
+}
+
+/// Copies the derivatives of a chunk into the coordinates from `first` on; where there is no value, these are not numbers either: that of a
+/// logarithm is finite where its value is not.
+#[inline(always)]
+pub(crate) fn read_partials<V: VectorSpace>(
+    out: &mut V,
+    first: usize,
+    value: impl Jet<Value = V::Scalar>,
+) {
+    let end = out.dim().min(first + lie::JET_DIRECTIONS);
+    let poison = value.value() * V::Scalar::zero();
+    for i in first..end {
+        out.set(i, value.partial(i - first) + poison);
+    }
+}
+
+/// $x \leftarrow x + y$ for a `y` that is not differentiated.
+#[inline(always)]
+pub(crate) fn add_constant<V, W>(x: &mut V, y: &W)
+where
+    V: VectorSpace<Scalar: Jet<Value = W::Scalar>>,
+    W: VectorSpace,
+{
+    for i in 0..x.dim() {
+        x.set(i, x.get(i) + V::Scalar::constant(y.get(i)));
+    }
+}
+
+/// The parameters of a system as constants over another scalar, into `out`.
+pub(crate) fn lift<S: Copy, T>(parameters: &[S], constant: impl Fn(S) -> T, out: &mut Vec<T>) {
+    out.clear();
+    out.extend(parameters.iter().map(|p| constant(*p)));
+}

@@ -1,0 +1,8 @@
+//! Numbers, small matrices and dual copies: what the integrators compute with.
+
+pub(crate) mod degenerate;
+pub(crate) mod duals;
+pub(crate) mod elimination;
+pub(crate) mod linear;
+pub(crate) mod numbers;
+pub(crate) mod sizes;

@@ -1,0 +1,316 @@
+//! Sizes of vectors whose coordinates have different units: compared block by block, and kind by kind.
+
+use core::ops::Range;
+
+use lie::{LieGroup, Units, VectorSpace};
+
+use super::numbers::{exponent, larger, power_of_two, relative};
+
+/// The last digits of a number choose the direction of its shake.
+const DIGITS: u32 = 8;
+/// A correction of this part of the tolerance, relative to the displacement, is not made.
+const SETTLED: f64 = 0.1;
+/// Roundings of an evaluation may add up to so many times what shaking its arguments makes of it.
+pub(crate) const NOISE: f64 = 16.0;
+
+/// The kinds of unit of a group's coordinates, and how large numbers of each kind are.
+#[derive(Clone)]
+pub(crate) struct Kinds {
+    /// Coordinates that stand together, and their kind.
+    pub(crate) runs: Vec<(Range<usize>, usize)>,
+    pub(crate) count: usize,
+}
+
+impl Kinds {
+    pub(crate) fn of<G: LieGroup>(g: &G) -> Self {
+        let units = Units::of(g);
+        Self {
+            runs: units.runs(),
+            count: units.kinds(),
+        }
+    }
+
+    /// The largest magnitude of each kind into `out`, where that is larger than what is there.
+    #[inline]
+    pub(crate) fn raise(&self, out: &mut [f64], numbers: &[f64]) {
+        for (run, kind) in &self.runs {
+            out[*kind] = larger(out[*kind], largest(&numbers[run.clone()]));
+        }
+    }
+}
+
+/// Coordinates of a kind whose inertia is looked at, at most.
+const SAMPLES: usize = 64;
+/// A change smaller than this fraction of the other kinds' is their rounding.
+const BESIDE: f64 = 4.0 * f64::EPSILON;
+
+/// What brings the kinds to one unit: the roots of their inertias.
+///
+/// With them it can be said whether one kind's size is rounding beside the others': a body that turns about its mass centre has no
+/// linear momentum to be relative to.
+#[derive(Clone)]
+pub(crate) struct Weights {
+    pub(crate) velocities: Factors,
+    pub(crate) momenta: Factors,
+}
+
+/// A factor for each kind; powers of two, which follow the units exactly.
+#[derive(Clone)]
+pub(crate) struct Factors(Vec<f64>);
+
+impl Weights {
+    /// From the inertia of a kind along one of its coordinates; none where a kind has no finite one.
+    pub(crate) fn new(kinds: &Kinds, mut inertia: impl FnMut(usize, usize) -> f64) -> Option<Self> {
+        /// Inertias that are powers of two are far from where the exponent changes.
+        const BETWEEN: f64 = core::f64::consts::SQRT_2;
+        let mut exponents = Vec::with_capacity(kinds.count);
+        for kind in 0..kinds.count {
+            let of_kind = kinds.runs.iter().filter(|(_, of)| *of == kind);
+            let coordinates: Vec<usize> = of_kind.flat_map(|(run, _)| run.clone()).collect();
+            let every = coordinates.len().div_ceil(SAMPLES).max(1);
+            let sampled = coordinates.into_iter().step_by(every);
+            let sampled = sampled.map(|i| BETWEEN * inertia(kind, i));
+            exponents.push(exponent(sampled.fold(0.0, larger))?);
+        }
+        let first = exponents.first().copied().unwrap_or(0);
+        let halves = || exponents.iter().map(|e| (e - first).div_euclid(2));
+        Some(Self {
+            velocities: Factors(halves().map(power_of_two).collect()),
+            momenta: Factors(halves().map(|half| power_of_two(-half)).collect()),
+        })
+    }
+}
+
+impl Factors {
+    pub(crate) fn of(&self, kind: usize) -> f64 {
+        self.0[kind]
+    }
+
+    /// The largest of sizes, one for each kind, in the unit of the first.
+    fn largest(&self, sizes: impl Iterator<Item = f64>) -> f64 {
+        let all = sizes.zip(&self.0);
+        all.fold(0.0, |max, (size, factor)| larger(max, size * factor))
+    }
+
+    /// Gives a kind without any size that of the others.
+    pub(crate) fn fill(&self, sizes: &mut [f64]) {
+        let largest = self.largest(sizes.iter().copied());
+        for (size, factor) in sizes.iter_mut().zip(&self.0) {
+            if *size == 0.0 {
+                *size = largest / factor;
+            }
+        }
+    }
+
+    /// What is rounding of the other kinds, in one kind.
+    pub(crate) fn beside(&self, sizes: impl Fn(usize) -> f64, kind: usize) -> f64 {
+        let others = (0..self.0.len()).map(|k| if k == kind { 0.0 } else { sizes(k) });
+        BESIDE * self.largest(others) / self.0[kind]
+    }
+}
+
+/// A size relative to another, which is at least what is rounding; none where it is rounding itself.
+pub(crate) fn relative_beside(size: f64, scale: f64, rounding: f64) -> f64 {
+    if size <= rounding {
+        return 0.0;
+    }
+    relative(size, larger(scale, rounding))
+}
+
+/// The blocks of a group's coordinates, and how large a vector is in each.
+pub(crate) struct Sizes {
+    blocks: Vec<Block>,
+    numbers: Vec<f64>,
+    /// The largest scale of all, in one unit.
+    scale: f64,
+}
+
+/// Coordinates of one unit that belong together.
+struct Block {
+    coordinates: Range<usize>,
+    kind: usize,
+    /// What brings its momenta to one unit with the others'.
+    weight: f64,
+    size: f64,
+    /// What the size is relative to, and its inverse.
+    scale: f64,
+    inverse_scale: f64,
+    /// What rounding makes of nothing.
+    noise: f64,
+}
+
+impl Sizes {
+    /// For vectors of the shape of `g`, without the coordinates in `left_out`.
+    pub(crate) fn new<G: LieGroup>(
+        g: &G,
+        left_out: Range<usize>,
+        weights: Option<&Weights>,
+    ) -> Self {
+        let units = Units::of(g);
+        let (before, after) = (0..left_out.start, left_out.end..usize::MAX);
+        let parts = units.blocks().flat_map(|(block, kind)| {
+            [&before, &after].map(|kept| {
+                let start = block.start.max(kept.start);
+                (start..block.end.min(kept.end).max(start), kind)
+            })
+        });
+        let block = |(coordinates, kind): (Range<usize>, usize)| Block {
+            coordinates,
+            kind,
+            weight: weights.map_or(1.0, |weights| weights.momenta.of(kind)),
+            size: 0.0,
+            scale: 0.0,
+            inverse_scale: f64::INFINITY,
+            noise: 0.0,
+        };
+        let parts = parts.filter(|(part, _)| !part.is_empty());
+        Self {
+            blocks: parts.map(block).collect(),
+            numbers: vec![0.0; g.zero_dual().dim()],
+            scale: 0.0,
+        }
+    }
+
+    /// Takes the largest of these momenta for the scale of each block, and forgets the noise.
+    #[inline]
+    pub(crate) fn set_scales<V: VectorSpace<Scalar = f64>>(&mut self, terms: &[&V]) {
+        for block in &mut self.blocks {
+            (block.scale, block.noise) = (0.0, 0.0);
+        }
+        for term in terms {
+            self.measure(*term);
+            for block in &mut self.blocks {
+                block.scale = larger(block.scale, block.size);
+            }
+        }
+        self.scale = 0.0;
+        for block in &mut self.blocks {
+            block.inverse_scale = 1.0 / block.scale;
+            self.scale = larger(self.scale, block.scale * block.weight);
+        }
+    }
+
+    /// Whether all scales are zero.
+    pub(crate) fn have_no_scale(&self) -> bool {
+        self.scale == 0.0
+    }
+
+    /// Takes the size of a vector in each block.
+    #[inline(always)]
+    fn measure<V: VectorSpace<Scalar = f64>>(&mut self, x: &V) {
+        x.write(&mut self.numbers);
+        for block in &mut self.blocks {
+            block.size = largest(&self.numbers[block.coordinates.clone()]);
+        }
+    }
+
+    /// How large momenta are relative to the scales, as a whole and block by block.
+    #[inline(always)]
+    pub(crate) fn relative<V: VectorSpace<Scalar = f64>>(&mut self, x: &V) -> Relative {
+        self.measure(x);
+        let (mut size, mut by_block) = (0.0, 0.0);
+        for block in &self.blocks {
+            size = larger(size, block.size * block.weight);
+            let relative = if block.size == 0.0 {
+                0.0
+            } else {
+                block.size * block.inverse_scale
+            };
+            by_block = larger(by_block, relative);
+        }
+        Relative {
+            overall: relative(size, self.scale),
+            by_block,
+        }
+    }
+
+    /// The largest size relative to the scale of its block, of sizes above what is rounding in a kind.
+    pub(crate) fn relative_above<V: VectorSpace<Scalar = f64>>(
+        &mut self,
+        x: &V,
+        rounding: impl Fn(usize) -> f64,
+    ) -> f64 {
+        self.measure(x);
+        let blocks = self.blocks.iter();
+        let sizes = blocks.map(|b| relative_beside(b.size, b.scale, rounding(b.kind)));
+        sizes.fold(0.0, larger)
+    }
+
+    /// The largest of displacements, in one unit.
+    pub(crate) fn displacement<V: VectorSpace<Scalar = f64>>(&mut self, x: &V) -> f64 {
+        self.measure(x);
+        let sizes = self.blocks.iter().map(|block| block.size / block.weight);
+        sizes.fold(0.0, larger)
+    }
+
+    /// Takes the difference of two evaluations that are the same but for rounding: the noise of each block, where it is larger than before.
+    pub(crate) fn raise_noise<V: VectorSpace<Scalar = f64>>(&mut self, difference: &V) {
+        self.measure(difference);
+        for block in &mut self.blocks {
+            block.noise = larger(block.noise, block.size);
+        }
+    }
+
+    /// Whether each block of the vector that was [measured](Self::relative) last is solved.
+    ///
+    /// It is where it is within the tolerance, or is noise. It is too where the correction that it asks for is small beside the displacement.
+    pub(crate) fn are_settled<V: VectorSpace<Scalar = f64>>(
+        &self,
+        (correction, whole): (&V, &V),
+        tolerance: f64,
+    ) -> bool {
+        let settled = |block: &Block| {
+            block.size <= larger(tolerance * block.scale, NOISE * block.noise) || {
+                let [part, all] = [correction, whole].map(|x| {
+                    let numbers = block.coordinates.clone().map(|i| x.get(i).abs());
+                    numbers.fold(0.0, larger)
+                });
+                part < SETTLED * tolerance * all
+            }
+        };
+        self.blocks.iter().all(settled)
+    }
+}
+
+/// Of momenta.
+#[derive(Clone, Copy)]
+pub(crate) struct Relative {
+    pub(crate) overall: f64,
+    pub(crate) by_block: f64,
+}
+
+impl Relative {
+    /// Of nothing known yet.
+    pub(crate) const NONE: Self = Self {
+        overall: f64::INFINITY,
+        by_block: f64::INFINITY,
+    };
+}
+
+/// The largest magnitude; not a number where one is not finite.
+#[inline(always)]
+fn largest(numbers: &[f64]) -> f64 {
+    let (mut max, mut poison) = (0.0, 0.0);
+    for x in numbers {
+        // One instruction, where `larger` takes three.
+        max = if x.abs() > max { x.abs() } else { max };
+        poison += 0.0 * x;
+    }
+    max + poison
+}
+
+/// Moves a number by two units of its last place, up or down as one of its digits says, every other time up: what cannot be told from it.
+///
+/// What the moved numbers do may cancel: the next time they are moved otherwise.
+#[inline(always)]
+pub(crate) fn shaken(x: f64, time: u32) -> f64 {
+    let digit = x.to_bits() >> (time / 2 % DIGITS) & 1;
+    let up = digit == 0 || time.is_multiple_of(2);
+    let sign = if up { 1.0 } else { -1.0 };
+    x + sign * 2.0 * f64::EPSILON * x
+}
+
+/// Shakes every coordinate.
+pub(crate) fn shake<V: VectorSpace<Scalar = f64>>(x: &mut V, time: u32) {
+    (0..x.dim()).for_each(|i| x.set(i, shaken(x.get(i), time)));
+}

@@ -1,0 +1,33 @@
+//! What moves, and how it is described: Lagrangians, discrete ones, Hamilton's equations, forces.
+
+mod adjoint;
+mod context;
+mod continuous;
+mod discrete;
+mod discretised;
+mod force;
+mod forced;
+mod hamiltonian;
+mod lagrangian;
+mod legendre;
+mod lifted;
+mod quadrature;
+mod shape;
+mod state;
+mod symmetry;
+
+pub use adjoint::{Adjoint, AdjointWorkspace};
+pub(crate) use context::{Adapter, Algebra, Dual};
+pub use context::{Context, System};
+pub use continuous::ContinuousSystem;
+pub use discrete::{Derivatives, DiscreteLagrangian};
+pub use force::{DiscreteForce, Force};
+pub use forced::{Forced, ForcedWorkspace};
+pub use hamiltonian::LegendreWorkspace;
+pub use lagrangian::{Discretised, HamiltonianSystem, Lagrangian};
+pub use legendre::{legendre_minus, legendre_plus};
+pub use quadrature::Quadrature;
+pub use shape::ShapeError;
+pub use state::{Pair, State};
+pub(crate) use symmetry::generator;
+pub use symmetry::{LeftTranslation, RightTranslation, Symmetry, momentum_map};
