@@ -40,14 +40,10 @@ impl Grid {
         self.until
     }
 
-    /// Number of sampling times, both ends included.
-    pub(super) fn len(&self) -> usize {
-        self.inner + 2
-    }
-
-    /// The sampling time of index `k`, if it lies strictly before the end.
-    pub(super) fn before_end(&self, k: usize) -> Option<f64> {
-        (k <= self.inner).then_some(self.every * k as f64)
+    /// The sampling times, strictly increasing.
+    pub(super) fn times(&self) -> impl Iterator<Item = f64> {
+        let inner = (0..=self.inner).map(|k| self.every * k as f64);
+        inner.chain([self.until])
     }
 }
 
@@ -72,10 +68,7 @@ mod tests {
 
     fn times(until: f64, every: f64) -> Vec<f64> {
         let grid = Grid::new(until, every, 1).expect("a valid grid");
-        let mut t: Vec<f64> = (0..).map_while(|k| grid.before_end(k)).collect();
-        t.push(grid.until());
-        assert_eq!(t.len(), grid.len());
-        t
+        grid.times().collect()
     }
 
     #[test]

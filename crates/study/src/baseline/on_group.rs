@@ -2,7 +2,7 @@
 //!
 //! Hamilton's equations in the chart $g = g_0 \exp(c)$,
 //! $$ \dot c = \mathrm d\exp_c^{-1} \xi, \qquad \dot\mu = \mathrm{ad}^\ast_\xi \mu + \tau, $$
-//! by the Dormand–Prince pair 8(5,3) of [`baseline`]. Where $c$ has grown to about one, the chart is moved:
+//! by the Dormand–Prince pair 8(5,3) of [`baseline`](super). Where $c$ has grown to about one, the chart is moved:
 //! $g_0 \leftarrow g_0 \exp(c)$. So the configuration stays on the group, and no formula is shared with a variational method but
 //! those of the group and of the system.
 //!
@@ -10,7 +10,7 @@
 //! use dvi::Lagrangian;
 //! use lie::SO3;
 //! use study::baseline::Tolerance;
-//! use study::on_group::integrate;
+//! use study::baseline::on_group::integrate;
 //! use study::problems::{HeavyTop, Solution};
 //!
 //! let tilted = SO3::from_quaternion([1.0, 0.2, 0.0, 0.0]);
@@ -25,8 +25,7 @@
 use dvi::{ContinuousSystem, State};
 use lie::{Exp, LieGroup, Retraction, VectorSpace};
 
-use crate::baseline::{self, BaselineError, Pair, Tolerance};
-use crate::problems::{ProblemError, Solution};
+use super::{BaselineError, Pair, Tolerance};
 
 /// Coordinates in the chart larger than this are not used; $\mathrm d\exp$ is singular at angles of $2\pi$.
 const CHART: f64 = 2.0;
@@ -96,23 +95,6 @@ pub fn sample<S: ContinuousSystem>(
         states.push(last.clone());
     }
     Ok(states)
-}
-
-/// The motion of a system as [`integrate`] finds it, anew from the start at every call.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reference<S: ContinuousSystem> {
-    /// The system.
-    pub system: S,
-    /// The state at its own time.
-    pub start: State<S::Group>,
-    /// Of the steps.
-    pub tolerance: Tolerance,
-}
-
-impl<S: ContinuousSystem> Solution<S::Group> for Reference<S> {
-    fn at(&self, t: f64) -> Result<State<S::Group>, ProblemError> {
-        Ok(integrate(&self.system, &self.start, t, self.tolerance)?)
-    }
 }
 
 fn check<S: ContinuousSystem>(
@@ -192,7 +174,7 @@ impl<'a, S: ContinuousSystem> Chart<'a, S> {
             self.derivative(start + sense * s, y, dy);
             dy.iter_mut().for_each(|rate| *rate *= sense);
         };
-        let run = baseline::integrate(Pair::DormandPrince853, rhs, &y, length, length, tolerance);
+        let run = super::integrate(&Pair::DP853, rhs, &y, length, length, tolerance);
         Ok(run?.y.pop().unwrap_or(y))
     }
 

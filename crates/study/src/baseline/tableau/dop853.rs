@@ -1,10 +1,9 @@
 //! The coefficients of the pair 8(5,3) (E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.5; their code DOP853).
 
-/// Coefficients that are not zero, each with the stage it belongs to.
-pub(super) type Row = &'static [(usize, f64)];
+use super::Row;
 
-/// Row `i` makes the argument of stage `i + 1`; its sum is the node.
-pub(super) const STAGES: [Row; 11] = [
+/// Of each stage but the first.
+pub(super) const ROWS: [Row; 11] = [
     &[(0, 0.05260015195876773)],
     &[(0, 0.0197250569845379), (1, 0.0591751709536137)],
     &[(0, 0.02958758547680685), (2, 0.08876275643042054)],
