@@ -105,7 +105,9 @@ fn explicit(problem: &Problem) -> Result<Vec<Point>, Error> {
         let run = || {
             let tolerance = Tolerance::uniform(tolerance);
             let (model, start, until) = (&problem.model, &problem.start, problem.until);
-            Motion::new(&Pair::DP853, model, start, until, tolerance)?.at(until).map(drop)
+            Motion::new(&Pair::DP853, model, start, until, tolerance)?
+                .at(until)
+                .map(drop)
         };
         Ok(Point {
             setting: format!("tol {tolerance:.1e}"),

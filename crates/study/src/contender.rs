@@ -98,7 +98,8 @@ impl Contender {
         match self {
             Self::Structure(method) => method.description(),
             Self::Pilot => {
-                "variational Gauss collocation, its stages and step chosen by a pilot run".to_owned()
+                "variational Gauss collocation, its stages and step chosen by a pilot run"
+                    .to_owned()
             }
             Self::Baseline(baseline) => baseline.text.to_owned(),
         }

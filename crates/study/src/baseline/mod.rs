@@ -37,7 +37,6 @@
 //! the price of the method.
 
 mod error;
-mod grid;
 mod motion;
 mod munthe_kaas;
 pub mod on_group;
@@ -183,18 +182,21 @@ fn check_step<G: RealGroup>(
     if h == 0.0 || !h.is_finite() {
         return Err(StepError::InvalidStep { step, t, h });
     }
-    if !fits {
-        return Err(StepError::Misfit { step, t });
-    }
-    let zero = state.g.zero_dual();
-    if !state.mu.same_shape(&zero) {
-        let (expected, found) = (zero.dim(), state.mu.dim());
-        return Err(StepError::Shape {
-            step,
-            t,
-            expected,
-            found,
-        });
-    }
-    Ok(())
+    fits.then_some(()).ok_or(StepError::Misfit { step, t })
+}
+
+/// Refuses a momentum of another shape than this one.
+fn check_momentum<G: RealGroup>(
+    state: &State<G>,
+    shape: &G::Dual,
+    step: u64,
+) -> Result<(), StepError> {
+    let (t, expected, found) = (state.t, shape.dim(), state.mu.dim());
+    let fits = state.mu.same_shape(shape);
+    fits.then_some(()).ok_or(StepError::Shape {
+        step,
+        t,
+        expected,
+        found,
+    })
 }

@@ -3,8 +3,8 @@
 use dvi::{ContinuousSystem, Integrator, State, StepError, StepReport};
 use lie::{LieGroup, RealGroup, VectorSpace};
 
-use super::check_step;
 use super::tableau::{Row, Tableau, sum};
+use super::{check_momentum, check_step};
 
 type Algebra<S> = <<S as ContinuousSystem>::Group as LieGroup>::Algebra;
 type Dual<S> = <<S as ContinuousSystem>::Group as LieGroup>::Dual;
@@ -34,20 +34,15 @@ pub enum Scheme {
 /// $\mathrm d\exp_c^{-1} = 1 + \frac12 \mathrm{ad}_c + \dots$
 ///
 /// ```
-/// use dvi::{Integrator, Lagrangian};
-/// use lie::SO3;
+/// use articulated_fluid::{Scene, scene};
+/// use dvi::Integrator;
 /// use study::baseline::{GroupRungeKutta, Scheme};
-/// use study::problems::{HeavyTop, Solution};
 ///
-/// let tilted = SO3::from_quaternion([1.0, 0.2, 0.0, 0.0]);
-/// let problem = HeavyTop::new(1.0, 0.5, 1.0)?.problem(tilted, [0.0, 0.0, 10.0])?;
-/// let mut integrator = GroupRungeKutta::new(problem.lagrangian.hamiltonian(), Scheme::MuntheKaas);
-/// let mut state = problem.start.clone();
-/// for _ in 0..100 {
-///     integrator.step(&mut state, 0.01)?;
-/// }
-/// let exact = problem.exact.at(1.0)?;
-/// assert!((*state.g.matrix() - *exact.g.matrix()).frobenius() < 1e-5);
+/// let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
+/// let (model, mut state) = (scene.model()?, scene.initial_state()?);
+/// let mut integrator = GroupRungeKutta::new(model.clone(), Scheme::MuntheKaas);
+/// (0..10).try_for_each(|_| integrator.step(&mut state, 0.1).map(drop))?;
+/// assert!(model.orthogonality_error(&state.g) < 1e-14);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 pub struct GroupRungeKutta<S: ContinuousSystem> {
@@ -145,6 +140,7 @@ impl<S: ContinuousSystem> Integrator for GroupRungeKutta<S> {
             _ => Storage::new(&self.system, state),
         };
         let storage = self.storage.insert(storage);
+        check_momentum(state, &storage.forces[0], self.steps)?;
         storage.step(&self.system, self.scheme, state, h);
         let end = &mut storage.end;
         let finite = end.g.is_finite() && end.mu.max_magnitude().is_finite();
@@ -167,7 +163,11 @@ impl<S: ContinuousSystem> Storage<S> {
             c: zero(),
             exp: state.g.clone(),
             stages: core::array::from_fn(|_| state.g.clone()),
-            end: state.clone(),
+            end: State {
+                t: state.t,
+                g: state.g.clone(),
+                mu: state.g.zero_dual(),
+            },
             xi: zero(),
             rates: core::array::from_fn(|_| zero()),
             forces: core::array::from_fn(|_| state.g.zero_dual()),

@@ -9,17 +9,17 @@ use lie::{LieGroup, VectorSpace};
 
 /// The state as a vector; `t` is left out.
 pub(super) fn pack(state: &State<Configuration>) -> Vec<f64> {
-    let mut y = vec![0.0; length(state)];
+    let mut y = zero(&state.g);
     write(state, &mut y);
     y
 }
 
-/// The length of [`pack`]'s vector.
-pub(super) fn length(state: &State<Configuration>) -> usize {
-    12 + 9 * state.g.2.len() + state.mu.dim()
+/// A vector for states of the shape of this one.
+pub(super) fn zero((_, _, r): &Configuration) -> Vec<f64> {
+    vec![0.0; 18 + 12 * r.len()]
 }
 
-/// [`pack`] into a vector of its length.
+/// [`pack`] into a vector of fitting length.
 pub(super) fn write(state: &State<Configuration>, y: &mut [f64]) {
     let (r0, rest) = y.split_at_mut(9);
     let (x, rest) = rest.split_at_mut(3);
@@ -40,31 +40,34 @@ pub(super) fn read<S: Batch<Item = f64>>(
     (r0, x, r): &mut Configuration<S>,
     (p0, px, p): &mut DualOver<Configuration, S>,
 ) {
-    let (of_r0, rest) = y.split_at(9);
-    let (of_x, rest) = rest.split_at(3);
-    let (of_r, rest) = rest.split_at(9 * r.len());
-    let (of_p0, rest) = rest.split_at(3);
-    let (of_px, of_p) = rest.split_at(3);
-    *r0 = rotation(of_r0);
+    let (triples, _) = y.as_chunks();
+    let [a, b, c, of_x, rest @ ..] = triples else {
+        return;
+    };
+    let (of_r, [of_p0, of_px, of_p @ ..]) = rest.split_at(3 * r.len()) else {
+        return;
+    };
+    *r0 = rotation([a, b, c]);
     x.0 = vector(of_x);
-    for (r, entries) in r.iter_mut().zip(of_r.chunks_exact(9)) {
-        *r = rotation(entries);
+    for (r, [a, b, c]) in r.iter_mut().zip(of_r.as_chunks().0) {
+        *r = rotation([a, b, c]);
     }
     *p0 = Cotangent(vector(of_p0));
     *px = Cotangent(vector(of_px));
-    for (p, entries) in p.iter_mut().zip(of_p.chunks_exact(3)) {
+    for (p, entries) in p.iter_mut().zip(of_p) {
         *p = Cotangent(vector(entries));
     }
 }
 
+// Calls of `map` would not be inlined.
 #[inline(always)]
-fn vector<S: Batch<Item = f64>>(entries: &[f64]) -> [S; 3] {
-    [0, 1, 2].map(|i| S::splat(entries[i]))
+fn vector<S: Batch<Item = f64>>([x, y, z]: &[f64; 3]) -> [S; 3] {
+    [S::splat(*x), S::splat(*y), S::splat(*z)]
 }
 
 #[inline(always)]
-fn rotation<S: Batch<Item = f64>>(entries: &[f64]) -> SO3<S> {
-    SO3::from_matrix_unchecked(Mat3([0, 3, 6].map(|row| vector(&entries[row..]))))
+fn rotation<S: Batch<Item = f64>>([a, b, c]: [&[f64; 3]; 3]) -> SO3<S> {
+    SO3::from_matrix_unchecked(Mat3([vector(a), vector(b), vector(c)]))
 }
 
 /// Hamilton's equations (18)–(20) with $\dot R_i = R_i \hat\Omega_i$, (15), inlined for the instructions of `S`.
@@ -91,6 +94,11 @@ impl<S: Batch<Item = f64>> Rates<S> {
         }
     }
 
+    /// A configuration and a momentum of the shape of the states.
+    pub(super) fn shape(&self) -> (&Configuration<S>, &DualOver<Configuration, S>) {
+        (&self.g, &self.mu)
+    }
+
     /// The rates of `y`, both as [`pack`] lays them out.
     #[inline(never)]
     pub(super) fn evaluate(&mut self, y: &[f64], dy: &mut [f64]) {
@@ -99,8 +107,14 @@ impl<S: Batch<Item = f64>> Rates<S> {
             || {
                 let (g, mu, xi, tau) = (&mut self.g, &mut self.mu, &mut self.xi, &mut self.tau);
                 read(y, g, mu);
-                self.model
-                    .velocity_and_force::<S>(S::splat(0.0), g, mu, &mut self.workspace, xi, tau);
+                self.model.velocity_and_force::<S>(
+                    S::splat(0.0),
+                    g,
+                    mu,
+                    &mut self.workspace,
+                    xi,
+                    tau,
+                );
                 self.write(dy);
             },
         );
@@ -108,32 +122,33 @@ impl<S: Batch<Item = f64>> Rates<S> {
 
     #[inline(always)]
     fn write(&self, dy: &mut [f64]) {
-        let (d_r0, rest) = dy.split_at_mut(9);
-        let (d_x, rest) = rest.split_at_mut(3);
-        let (d_r, rest) = rest.split_at_mut(9 * self.g.2.len());
-        let (d_p0, rest) = rest.split_at_mut(3);
-        let (d_px, d_p) = rest.split_at_mut(3);
         let ((r0, _, r), (p0, _, p)) = (&self.g, &self.mu);
         let ((omega0, v, omega), (tau0, force, tau)) = (&self.xi, &self.tau);
-        rotated(r0, omega0, d_r0);
-        store(&v.0, d_x);
-        turned(tau0, p0, omega0, d_p0);
-        store(&force.0, d_px);
-        for ((r, omega), out) in r.iter().zip(omega.iter()).zip(d_r.chunks_exact_mut(9)) {
-            rotated(r, omega, out);
+        let (triples, _) = dy.as_chunks_mut();
+        let [a, b, c, d_x, rest @ ..] = triples else {
+            return;
+        };
+        let (d_r, [d_p0, d_px, d_p @ ..]) = rest.split_at_mut(3 * r.len()) else {
+            return;
+        };
+        rotated(r0, omega0, [a, b, c]);
+        store(v.vec3(), d_x);
+        for ((r, omega), [a, b, c]) in r.iter().zip(omega.iter()).zip(d_r.as_chunks_mut().0) {
+            rotated(r, omega, [a, b, c]);
         }
-        let tails = tau.iter().zip(p.iter()).zip(omega.iter());
-        for (((tau, p), omega), out) in tails.zip(d_p.chunks_exact_mut(3)) {
-            turned(tau, p, omega, out);
+        turned(tau0, p0, omega0, d_p0);
+        store(force.vec3(), d_px);
+        for (((tau, p), omega), d_p) in tau.iter().zip(p.iter()).zip(omega.iter()).zip(d_p) {
+            turned(tau, p, omega, d_p);
         }
     }
 }
 
 /// $R \hat\Omega$: the rows of $R$, each crossed with $\Omega$.
 #[inline(always)]
-fn rotated<S: Batch<Item = f64>>(r: &SO3<S>, omega: &Tangent<3, S>, out: &mut [f64]) {
-    for (i, out) in out.chunks_exact_mut(3).enumerate() {
-        store(&r.matrix().row(i).cross(omega.vec3()).0, out);
+fn rotated<S: Batch<Item = f64>>(r: &SO3<S>, omega: &Tangent<3, S>, rows: [&mut [f64; 3]; 3]) {
+    for (i, out) in rows.into_iter().enumerate() {
+        store(r.matrix().row(i).cross(omega.vec3()), out);
     }
 }
 
@@ -143,15 +158,14 @@ fn turned<S: Batch<Item = f64>>(
     tau: &Cotangent<3, S>,
     p: &Cotangent<3, S>,
     omega: &Tangent<3, S>,
-    out: &mut [f64],
+    out: &mut [f64; 3],
 ) {
-    let sum: Vec3<S> = tau.vec3() + p.vec3().cross(omega.vec3());
-    store(&sum.0, out);
+    store(tau.vec3() + p.vec3().cross(omega.vec3()), out);
 }
 
 #[inline(always)]
-fn store<S: Batch<Item = f64>>(x: &[S; 3], out: &mut [f64]) {
-    for (out, x) in out.iter_mut().zip(x) {
+fn store<S: Batch<Item = f64>>(x: Vec3<S>, out: &mut [f64; 3]) {
+    for (out, x) in out.iter_mut().zip(&x.0) {
         *out = S::items(core::slice::from_ref(x))[0];
     }
 }

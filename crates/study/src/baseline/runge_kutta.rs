@@ -2,9 +2,10 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::{ContinuousSystem, Integrator, State, StepError, StepReport};
+use lie::LieGroup;
 
 use super::stages::{combine, evaluate, is_finite};
-use super::{Tableau, check_step, raw};
+use super::{Tableau, check_momentum, check_step, raw};
 
 /// An explicit Runge–Kutta method on the entries of the rotation matrices, which nothing keeps orthogonal.
 ///
@@ -38,7 +39,7 @@ impl RungeKutta {
         model: ArticulatedBody,
         state: &State<Configuration>,
     ) -> Self {
-        let y = raw::pack(state);
+        let y = raw::zero(&state.g);
         Self {
             tableau,
             rates: raw::Rates::new(&model, &state.g),
@@ -71,8 +72,10 @@ impl Integrator for RungeKutta {
     }
 
     fn step(&mut self, state: &mut State<Configuration>, h: f64) -> Result<StepReport, StepError> {
-        let fits = self.model.fits(&state.g) && self.y.len() == raw::length(state);
+        let (g, mu) = self.rates.shape();
+        let fits = self.model.fits(&state.g) && state.g.same_shape(g);
         check_step(state, h, self.steps, fits)?;
+        check_momentum(state, mu, self.steps)?;
         let Self {
             tableau,
             rates,

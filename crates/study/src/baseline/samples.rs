@@ -1,7 +1,15 @@
 //! A trajectory on a uniform grid of times.
 
-use super::grid::Grid;
-use super::{BaselineError, Pair, Tolerance, Trajectory, Work};
+use super::{BaselineError, Pair, RightHandSide, Tolerance, Trajectory, Work};
+
+/// Words kept at most over all samples (2 GiB).
+const MAX_WORDS: usize = 1 << 28;
+
+/// Words a sample takes beside its numbers: time, vector and allocation.
+const OVERHEAD: usize = 6;
+
+/// A multiple of the interval this close to the end is the end.
+const SAME: f64 = 16.0 * f64::EPSILON;
 
 /// A sampled trajectory and what it cost.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,8 +68,6 @@ pub fn integrate(
     every: f64,
     tolerance: Tolerance,
 ) -> Result<Samples, BaselineError> {
-    tolerance.check()?;
-    let grid = Grid::new(until, every, y0.len())?;
     let mut guarded = |t: f64, y: &[f64], dy: &mut [f64]| {
         // An entry that is not written must not pass.
         dy.fill(f64::NAN);
@@ -69,25 +75,26 @@ pub fn integrate(
             rhs(t, y, dy);
         }
     };
-    sample(pair, &mut guarded, y0, &grid, tolerance)
-}
-
-/// With the type of the right-hand side forgotten: compiled once, and not for every system again.
-fn sample(
-    pair: &'static Pair,
-    rhs: &mut dyn FnMut(f64, &[f64], &mut [f64]),
-    y0: &[f64],
-    grid: &Grid,
-    tolerance: Tolerance,
-) -> Result<Samples, BaselineError> {
-    let until = grid.until();
-    let mut trajectory: Trajectory<_> =
-        Trajectory::new(pair, rhs, (0.0, y0), until, tolerance)?;
-    let t: Vec<_> = grid.times().collect();
-    let mut y = Vec::with_capacity(t.len());
-    for t in &t {
-        y.push(trajectory.at(*t)?.to_vec());
-    }
+    // Its type forgotten, the method is compiled once, and not for every system again.
+    let rhs: &mut dyn RightHandSide = &mut guarded;
+    let mut trajectory: Trajectory<_> = Trajectory::new(pair, rhs, (0.0, y0), until, tolerance)?;
+    let t = times(until, every, MAX_WORDS / (y0.len() + OVERHEAD))?;
+    let y = t.iter().map(|t| Ok(trajectory.at(*t)?.to_vec()));
+    let y = y.collect::<Result<_, _>>()?;
     let work = trajectory.work();
     Ok(Samples { t, y, work })
+}
+
+/// The sampling times, at most about `limit`.
+fn times(until: f64, every: f64, limit: usize) -> Result<Vec<f64>, BaselineError> {
+    if !(every > 0.0 && every.is_finite()) {
+        return Err(BaselineError::Every { every });
+    }
+    let samples = until / every;
+    if samples > limit as f64 {
+        return Err(BaselineError::TooManySamples { samples, limit });
+    }
+    let multiples = (0..).map(|k: u32| every * f64::from(k));
+    let before_end = multiples.take_while(|t| *t < until * (1.0 - SAME));
+    Ok(before_end.chain([until]).collect())
 }

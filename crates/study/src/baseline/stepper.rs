@@ -38,6 +38,8 @@ pub(super) struct Stepper<S> {
     /// Where the last step started.
     pub(super) before: f64,
     pair: &'static Pair,
+    /// Whether the error estimate takes the rate at the end of the step.
+    looks_at_end: bool,
     tolerance: Tolerance,
     /// Length of the next step.
     h: f64,
@@ -63,6 +65,7 @@ impl<S: Batch<Item = f64>> Stepper<S> {
             y: y.to_vec(),
             work: Work::default(),
             pair,
+            looks_at_end: pair.looks_at_end(),
             tolerance,
             h: 0.0,
             next: y.to_vec(),
@@ -163,10 +166,10 @@ impl<S: Batch<Item = f64>> Stepper<S> {
         evaluate::<S>(tableau.rows, rhs, (t, y), h, &mut self.next, &mut self.k);
         self.work.evaluations += tableau.rows.len();
         combine::<S>(&mut self.next, &self.y, h, tableau.weights, &self.k);
-        if self.pair.looks_at_end() {
+        if self.looks_at_end {
             self.evaluate_end(rhs, h);
         }
-        let [first, second] = [*estimate, *second].map(|row| self.square_of_error(row));
+        let (first, second) = (self.square_of_error(estimate), self.square_of_error(second));
         let both = first + 0.01 * second;
         let both = if both == 0.0 { 1.0 } else { both };
         h * first / (both * self.y.len() as f64).sqrt()
@@ -203,7 +206,7 @@ impl<S: Batch<Item = f64>> Stepper<S> {
         if !is_finite::<S>(&self.next) {
             return false;
         }
-        if !self.pair.looks_at_end() {
+        if !self.looks_at_end {
             self.evaluate_end(rhs, h);
         }
         is_finite::<S>(&self.k[self.k.len() - 1])

@@ -77,7 +77,7 @@ impl<F: RightHandSide, S: Batch<Item = f64>> Trajectory<F, S> {
             return Err(BaselineError::Time { t, from, until });
         }
         while self.main.t < t {
-            self.main.step(&mut self.rhs, until)?;
+            self.step()?;
         }
         if self.main.t == t {
             return Ok(&self.main.y);
@@ -90,6 +90,17 @@ impl<F: RightHandSide, S: Batch<Item = f64>> Trajectory<F, S> {
             }
         }
         Ok(&within.y)
+    }
+
+    /// Takes a step, unless the end is reached.
+    ///
+    /// # Errors
+    /// [`BaselineError`]; what was [reached](Self::reached) before stays.
+    pub fn step(&mut self) -> Result<(), BaselineError> {
+        if self.main.t < self.until {
+            self.main.step(&mut self.rhs, self.until)?;
+        }
+        Ok(())
     }
 
     /// The end of the last step taken: its time and state.

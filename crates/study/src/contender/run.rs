@@ -12,19 +12,22 @@ use crate::methods::BoxedIntegrator;
 impl Contender {
     /// The integrator of a contender that takes steps of one size; `None` of any other.
     pub fn integrator(self, problem: &Problem) -> Option<BoxedIntegrator<Configuration>> {
-        match self {
-            Self::Structure(method) => Some(method.integrator(problem.model.clone())),
-            Self::Pilot => None,
-            Self::Baseline(baseline) => baseline.integrator(&problem.model, &problem.start),
-        }
+        self.fixed(problem).map(|(integrator, _)| integrator)
     }
 
-    /// Evaluations in a step, and in an iteration of its solver.
-    fn evaluations(self) -> [u64; 2] {
+    /// The same, with its evaluations in a step and in an iteration of its solver.
+    fn fixed(self, problem: &Problem) -> Option<(BoxedIntegrator<Configuration>, [u64; 2])> {
+        let Problem { model, start, .. } = problem;
         match self {
-            Self::Structure(method) => [0, method.evaluations_per_iteration().into()],
-            Self::Pilot => [0, 0],
-            Self::Baseline(baseline) => [baseline.stages() as u64, 0],
+            Self::Structure(method) => {
+                let evaluations = [0, method.evaluations_per_iteration().into()];
+                Some((method.integrator(model.clone()), evaluations))
+            }
+            Self::Pilot => None,
+            Self::Baseline(baseline) => {
+                let evaluations = [baseline.stages() as u64, 0];
+                Some((baseline.integrator(model, start)?, evaluations))
+            }
         }
     }
 
@@ -76,38 +79,25 @@ impl<'a> Run<'a> {
         setting: Setting,
     ) -> Result<Self, Failure> {
         let (model, start, until) = (&problem.model, &problem.start, problem.until);
+        let misused = || contender.misused(setting);
         match (contender, setting) {
+            (_, Setting::Steps(steps)) => {
+                let fixed = contender.fixed(problem).ok_or_else(misused)?;
+                Ok(Self::Fixed(Walk::new(problem, steps, fixed)))
+            }
             (Contender::Pilot, Setting::Accuracy(accuracy)) => {
                 let pilot = Pilot::run(model, start, until, accuracy)?;
                 // A whole number but for rounding; of a long run only the beginning was tried, and its steps get no longer.
                 let steps = (until / pilot.h - 1e-6).ceil() as u64;
-                let integrator = pilot.integrator(model.clone());
-                let evaluations = [0, pilot.stages as u64];
-                Ok(Self::Fixed(Walk::new(
-                    integrator,
-                    problem,
-                    steps,
-                    evaluations,
-                )))
+                let fixed = (pilot.integrator(model.clone()), [0, pilot.stages as u64]);
+                Ok(Self::Fixed(Walk::new(problem, steps, fixed)))
             }
             (Contender::Baseline(baseline), Setting::Tolerance(tolerance)) => {
                 let tolerance = Tolerance::uniform(tolerance);
                 let motion = baseline.motion(model, start, until, tolerance);
-                let motion = motion.ok_or_else(|| contender.misused(setting))??;
-                Ok(Self::Adaptive(motion, problem))
+                Ok(Self::Adaptive(motion.ok_or_else(misused)??, problem))
             }
-            (_, Setting::Steps(steps)) => {
-                let integrator = contender.integrator(problem);
-                let integrator = integrator.ok_or_else(|| contender.misused(setting))?;
-                let evaluations = contender.evaluations();
-                Ok(Self::Fixed(Walk::new(
-                    integrator,
-                    problem,
-                    steps,
-                    evaluations,
-                )))
-            }
-            _ => Err(contender.misused(setting)),
+            _ => Err(misused()),
         }
     }
 
@@ -149,10 +139,9 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn new(
-        integrator: BoxedIntegrator<Configuration>,
         problem: &'a Problem,
         steps: u64,
-        evaluations: [u64; 2],
+        (integrator, evaluations): (BoxedIntegrator<Configuration>, [u64; 2]),
     ) -> Self {
         Self {
             integrator,

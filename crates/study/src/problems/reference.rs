@@ -18,6 +18,11 @@ pub struct Reference<S: ContinuousSystem> {
 
 impl<S: ContinuousSystem> Solution<S::Group> for Reference<S> {
     fn at(&self, t: f64) -> Result<State<S::Group>, ProblemError> {
-        Ok(on_group::integrate(&self.system, &self.start, t, self.tolerance)?)
+        Ok(on_group::integrate(
+            &self.system,
+            &self.start,
+            t,
+            self.tolerance,
+        )?)
     }
 }
