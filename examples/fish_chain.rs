@@ -11,9 +11,8 @@ use articulated_fluid::{ArticulatedBody, Configuration, Conserved, ModelError, S
 use dvi::{Integrator, State, Variational};
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::Vec3;
-use study::baseline::{self, Pair, Tolerance};
+use study::baseline::{Motion, Pair, Tolerance};
 use study::figure::{Colour, Figure, Line, Panel, Scale, Style};
-use study::raw;
 
 /// The paper's step, s.
 const STEP: f64 = 1e-3;
@@ -57,6 +56,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// How many samples follow the first.
+fn samples(seconds: f64) -> u32 {
+    (seconds / (STEP * f64::from(EVERY))).round() as u32
+}
+
 /// Hamilton's form of the variational integrator, (39)–(46), at a fixed step.
 fn variational(
     model: &ArticulatedBody,
@@ -66,7 +70,7 @@ fn variational(
     let clock = Instant::now();
     let (mut state, mut states) = (start.clone(), vec![start.clone()]);
     let mut integrator = Variational::new(model.clone());
-    let samples = (seconds / (STEP * f64::from(EVERY))).round() as u32;
+    let samples = samples(seconds);
     for _ in 0..samples {
         for _ in 0..EVERY {
             integrator.step(&mut state, STEP)?;
@@ -88,20 +92,18 @@ fn runge_kutta(
     seconds: f64,
 ) -> Result<Vec<State<Configuration>>, Box<dyn Error>> {
     let clock = Instant::now();
-    let (rhs, y) = (raw::right_hand_side(model, start), raw::pack(start));
-    let every = STEP * f64::from(EVERY);
-    let samples = baseline::integrate(Pair::DormandPrince54, rhs, &y, seconds, every, TOLERANCE)?;
-    let seconds = clock.elapsed().as_secs_f64();
+    let samples = samples(seconds);
+    let time = |k: u32| STEP * f64::from(EVERY * k);
+    let mut motion = Motion::new(&Pair::DP54, model, start, time(samples), TOLERANCE)?;
+    let states = (0..=samples).map(|k| Ok(motion.at(time(k))?.clone()));
+    let states = states.collect::<Result<_, Box<dyn Error>>>()?;
     println!(
-        "RK 4(5): {} steps at relative tolerance {:e} in {seconds:.3} s",
-        samples.accepted, TOLERANCE.relative
+        "RK 4(5): {} steps at relative tolerance {:e} in {:.3} s",
+        motion.work().accepted,
+        TOLERANCE.relative,
+        clock.elapsed().as_secs_f64()
     );
-    let states = samples
-        .t
-        .iter()
-        .zip(&samples.y)
-        .filter_map(|(t, y)| raw::unpack(*t, y));
-    Ok(states.collect())
+    Ok(states)
 }
 
 /// What is drawn of a method's states.

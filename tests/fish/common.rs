@@ -4,8 +4,7 @@ use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use dvi::{Context, DiscreteLagrangian, Integrator, State, System};
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::{LieGroup, SO3, Scalar};
-use study::baseline::{self, Pair, Tolerance};
-use study::raw;
+use study::baseline::{Motion, Pair, Tolerance};
 
 pub fn paper() -> (ArticulatedBody, State<Configuration>) {
     let text = include_str!("../../scenes/fish-chain.toml");
@@ -37,11 +36,9 @@ impl DiscreteLagrangian for ValueOnly {
 /// The paper's scene by an explicit method of order 8 at a tight tolerance.
 pub fn reference(until: f64) -> State<Configuration> {
     let (model, start) = paper();
-    let rhs = raw::right_hand_side(&model, &start);
     let tolerance = Tolerance::uniform(1e-13);
-    let (pair, start) = (Pair::DormandPrince853, raw::pack(&start));
-    let samples = baseline::integrate(pair, rhs, &start, until, until, tolerance).unwrap();
-    raw::unpack(until, samples.y.last().unwrap()).unwrap()
+    let mut motion = Motion::new(&Pair::DP853, &model, &start, until, tolerance).unwrap();
+    motion.at(until).unwrap().clone()
 }
 
 /// The largest geodesic attitude error of the bodies, rad.

@@ -10,9 +10,8 @@ use std::time::{Duration, Instant};
 
 use articulated_fluid::{Configuration, Scene};
 use dvi::{Gauss, Integrator, State};
-use study::baseline::Tolerance;
+use study::baseline::{Motion, Pair, Tolerance};
 use study::contender::{Contender, Problem, Setting};
-use study::dop853;
 use study::methods::Method;
 use study::work_precision::Errors;
 
@@ -95,8 +94,9 @@ fn explicit(problem: &Problem) -> Result<Vec<Point>, Error> {
     let parts = (REFERENCE_RATE * problem.until).round() as u64;
     let gauss = Contender::Structure(Method::Gauss8);
     let exact = gauss.sample(problem, Setting::Steps(parts), parts)?;
+    let dp853: Contender = "dp853".parse()?;
     let error = |tolerance| {
-        let states = Contender::Dp853.sample(problem, Setting::Tolerance(tolerance), parts)?;
+        let states = dp853.sample(problem, Setting::Tolerance(tolerance), parts)?;
         apart(problem, &states, &exact)
     };
     println!("the references are apart by {:.1e} rad", error(REFERENCE)?);
@@ -104,7 +104,10 @@ fn explicit(problem: &Problem) -> Result<Vec<Point>, Error> {
         let tolerance = 10_f64.powf(-2.0 - 0.25 * f64::from(quarter));
         let run = || {
             let tolerance = Tolerance::uniform(tolerance);
-            dop853::integrate(&problem.model, &problem.start, problem.until, tolerance)
+            let (model, start, until) = (&problem.model, &problem.start, problem.until);
+            Motion::new(&Pair::DP853, model, start, until, tolerance)?
+                .at(until)
+                .map(drop)
         };
         Ok(Point {
             setting: format!("tol {tolerance:.1e}"),
@@ -117,11 +120,11 @@ fn explicit(problem: &Problem) -> Result<Vec<Point>, Error> {
 
 /// A family for each number of stages and tolerance.
 fn gauss(problem: &Problem) -> Result<Vec<Vec<Point>>, Error> {
-    let mut exact = Vec::new();
+    let (mut exact, dp853) = (Vec::new(), "dp853".parse::<Contender>()?);
     for rate in RATES {
         let steps = (rate * problem.until).round() as u64;
         let reference = Setting::Tolerance(REFERENCE);
-        exact.push((steps, Contender::Dp853.sample(problem, reference, steps)?));
+        exact.push((steps, dp853.sample(problem, reference, steps)?));
     }
     let mut families = Vec::new();
     for decade in 3..=14 {

@@ -10,11 +10,9 @@
 //! # Ok::<(), study::contender::UnknownContender>(())
 //! ```
 
-mod adaptive;
 mod failure;
-mod fixed;
-mod piloted;
 mod problem;
+mod run;
 
 use core::fmt;
 use core::str::FromStr;
@@ -24,28 +22,19 @@ use thiserror::Error;
 pub use failure::Failure;
 pub use problem::{Cost, Problem, Setting};
 
-use crate::methods::Method;
+use crate::baseline::{self, Baseline};
+use crate::methods::{Family, Method};
 
 /// A way to integrate the continuous or the discrete model of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Contender {
     /// One that keeps the structure.
     Structure(Method),
     /// Variational Gauss collocation as a [pilot run](dvi::Pilot) chooses it for a wanted accuracy.
     Pilot,
-    /// [Classical](crate::explicit::ClassicalRungeKutta) Runge–Kutta on raw matrix entries.
-    Rk4,
-    /// [`MuntheKaas`](crate::explicit::Scheme::MuntheKaas).
-    Rkmk4,
-    /// [`WithoutDexp`](crate::explicit::Scheme::WithoutDexp), the negative control.
-    Rkmk4Plain,
-    /// [`CommutatorFree`](crate::explicit::Scheme::CommutatorFree).
-    Cf4,
-    /// [`DormandPrince54`](crate::baseline::Pair::DormandPrince54) on raw matrix entries.
-    Dp54,
-    /// Dormand–Prince 8(5,3) on raw matrix entries, [inlined](crate::dop853).
-    Dp853,
+    /// An explicit competitor, of [`baseline::ALL`].
+    Baseline(&'static Baseline),
 }
 
 /// What a contender's accuracy is asked for with.
@@ -88,20 +77,11 @@ fn names() -> String {
     names.join(", ")
 }
 
-const OTHERS: [Contender; 7] = [
-    Contender::Pilot,
-    Contender::Rk4,
-    Contender::Rkmk4,
-    Contender::Rkmk4Plain,
-    Contender::Cf4,
-    Contender::Dp54,
-    Contender::Dp853,
-];
-
 impl Contender {
     /// Every contender, those that keep the structure first.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
-        Method::all().map(Self::Structure).chain(OTHERS)
+        let structure = Method::all().map(Self::Structure).chain([Self::Pilot]);
+        structure.chain(baseline::ALL.iter().map(Self::Baseline))
     }
 
     /// What it is called on a command line.
@@ -109,69 +89,58 @@ impl Contender {
         match self {
             Self::Structure(method) => method.name(),
             Self::Pilot => "pilot",
-            Self::Rk4 => "rk4",
-            Self::Rkmk4 => "rkmk4",
-            Self::Rkmk4Plain => "rkmk4-plain",
-            Self::Cf4 => "cf4",
-            Self::Dp54 => "dp54",
-            Self::Dp853 => "dp853",
+            Self::Baseline(baseline) => baseline.name,
         }
     }
 
     /// What it is, in a line.
     pub fn description(self) -> String {
         match self {
-            Self::Structure(method) => return method.description(),
+            Self::Structure(method) => method.description(),
             Self::Pilot => {
                 "variational Gauss collocation, its stages and step chosen by a pilot run"
+                    .to_owned()
             }
-            Self::Rk4 => "classical Runge–Kutta on raw rotation matrices",
-            Self::Rkmk4 => "Runge–Kutta–Munthe-Kaas on the group",
-            Self::Rkmk4Plain => "the same without dexp^-1, to show what that costs",
-            Self::Cf4 => "commutator-free on the group (Celledoni, Marthinsen & Owren)",
-            Self::Dp54 => "Dormand–Prince 5(4) on raw rotation matrices, adaptive",
-            Self::Dp853 => "Dormand–Prince 8(5,3) on raw rotation matrices, adaptive",
+            Self::Baseline(baseline) => baseline.text.to_owned(),
         }
-        .to_owned()
     }
 
     /// The order: the error at a fixed time falls as $h^{\text{order}}$; of the pilot's choice, the least.
     pub fn order(self) -> u32 {
         match self {
             Self::Structure(method) => method.order(),
-            Self::Rk4 | Self::Rkmk4 | Self::Cf4 => 4,
-            Self::Rkmk4Plain => 2,
-            Self::Dp54 => 5,
-            Self::Dp853 | Self::Pilot => 8,
+            Self::Pilot => 8,
+            Self::Baseline(baseline) => baseline.order(),
         }
     }
 
     /// Whether it keeps the group, the symplectic form and the momentum maps.
     pub fn keeps_structure(self) -> bool {
-        matches!(self, Self::Structure(_) | Self::Pilot)
+        !matches!(self, Self::Baseline(_))
     }
 
     /// What its accuracy is asked for with.
     pub fn control(self) -> Control {
-        match self {
-            Self::Pilot => Control::Accuracy,
-            Self::Dp54 | Self::Dp853 => Control::Tolerance,
+        match (self, self.kind()) {
+            (Self::Pilot, _) => Control::Accuracy,
+            (_, Kind::Adaptive) => Control::Tolerance,
             _ => Control::Step,
         }
     }
 
     /// What it is made of.
     pub fn kind(self) -> Kind {
-        use crate::methods::Family;
         match self {
             Self::Structure(method) => match method.family() {
                 Family::Gauss { .. } => Kind::Gauss,
                 _ => Kind::Variational,
             },
             Self::Pilot => Kind::Gauss,
-            Self::Rk4 => Kind::Raw,
-            Self::Rkmk4 | Self::Rkmk4Plain | Self::Cf4 => Kind::Group,
-            Self::Dp54 | Self::Dp853 => Kind::Adaptive,
+            Self::Baseline(baseline) => match baseline.method {
+                baseline::Method::Raw(_) => Kind::Raw,
+                baseline::Method::Group(_) => Kind::Group,
+                baseline::Method::Adaptive(_) => Kind::Adaptive,
+            },
         }
     }
 }

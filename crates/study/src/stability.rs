@@ -11,7 +11,7 @@
 //! comparison is made 32 times over the run, each time anew from the *method's own* state, and over a short window: one step, or twice as
 //! many and so on, until the motion has turned a body by half a radian. An attitude that is off by a [radian](WRONG) at its end is off by
 //! more than the motion itself, or, where a single step turns further, by more than a step can be wrong that still tells a direction. The
-//! reference is the pair 8(5,3) [in charts](crate::on_group); where it contradicts, `gauss-8` in short steps must agree with it. A run
+//! reference is the pair 8(5,3) [in charts](crate::baseline::on_group); where it contradicts, `gauss-8` in short steps must agree with it. A run
 //! without any comparison is not called good.
 //!
 //! # The wall

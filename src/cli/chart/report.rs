@@ -49,7 +49,7 @@ impl<'a> Report<'a> {
             error,
             cheapest: only(|_| true, error),
             keeping: only(Contender::keeps_structure, error),
-            dp853: only(|contender| contender == Contender::Dp853, error),
+            dp853: only(|contender| contender.name() == "dp853", error),
         };
         Self {
             loaded,

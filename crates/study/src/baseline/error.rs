@@ -1,6 +1,6 @@
 //! Why an integration was refused or gave up.
 
-/// Failure of [`integrate`](super::integrate).
+/// Why there is no state at a time.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BaselineError {
@@ -14,8 +14,8 @@ pub enum BaselineError {
         /// The absolute tolerance given.
         absolute: f64,
     },
-    /// The end time is not positive and finite.
-    #[error("the end time {until} is not positive and finite: give the duration of the run")]
+    /// The end time is not finite, or not after the start.
+    #[error("the end time {until} is not finite, or not after the start: give a later one")]
     Until {
         /// The end time given.
         until: f64,
@@ -27,6 +27,16 @@ pub enum BaselineError {
     Every {
         /// The sampling interval given.
         every: f64,
+    },
+    /// The time asked for lies before the last step or after the end.
+    #[error("there is no state at t = {t}: ask for times that grow, here from {from} to {until}")]
+    Time {
+        /// The time asked for.
+        t: f64,
+        /// The start of the last step.
+        from: f64,
+        /// The end of the run.
+        until: f64,
     },
     /// The state has no component.
     #[error("the initial state is empty: give at least one component")]
@@ -55,7 +65,7 @@ pub enum BaselineError {
         "the right-hand side is not finite at t = {t}: check its formula there, or end the run earlier"
     )]
     NonFiniteRhs {
-        /// Time of the call.
+        /// Time of the stage.
         t: f64,
     },
     /// The solution overflowed.
@@ -63,7 +73,7 @@ pub enum BaselineError {
         "the state is not finite at t = {t}: the solution grows without bound, end the run earlier"
     )]
     NonFiniteState {
-        /// End of the step that overflowed.
+        /// Time of the stage that overflowed.
         t: f64,
     },
     /// No step is short enough for the tolerance.

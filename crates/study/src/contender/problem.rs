@@ -1,12 +1,12 @@
 //! What is run, with what setting, and at what price.
 
 use core::fmt;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use articulated_fluid::{ArticulatedBody, Configuration, ModelError, Scene};
 use dvi::State;
 
-use super::{Contender, Control, Failure, adaptive, fixed, piloted};
+use super::Control;
 
 /// A model, where it starts and how long it runs: the same for every contender.
 ///
@@ -93,53 +93,14 @@ impl Problem {
 
     /// The times $k T / n$, $k = 0, \dots, n$, with $T$ the end and $n$ = `samples`.
     pub fn times(&self, samples: u64) -> Vec<f64> {
-        let time = |k| self.until * k as f64 / samples as f64;
-        (0..=samples).map(time).collect()
+        (0..=samples).map(|k| self.time(k, samples)).collect()
     }
-}
 
-impl Contender {
-    /// Runs to the end without looking at what is between.
-    ///
-    /// # Errors
-    /// [`Failure`].
-    pub fn run(self, problem: &Problem, setting: Setting) -> Result<Cost, Failure> {
-        match setting {
-            Setting::Steps(steps) => fixed::run(self, problem, steps),
-            Setting::Tolerance(tolerance) => adaptive::run(self, problem, tolerance),
-            Setting::Accuracy(accuracy) => piloted::run(self, problem, accuracy),
+    /// The time $k T / n$; of $k = n$ the end itself.
+    pub(super) fn time(&self, k: u64, n: u64) -> f64 {
+        if k == n {
+            return self.until;
         }
+        self.until * k as f64 / n as f64
     }
-
-    /// The states at $k T / n$ for $k = 0, \dots, n$, $T$ the end and $n$ = `samples`; the steps are those of [`run`](Self::run), and what
-    /// lies inside a step is a shorter step of the method, not interpolated.
-    ///
-    /// # Errors
-    /// [`Failure`].
-    pub fn sample(
-        self,
-        problem: &Problem,
-        setting: Setting,
-        samples: u64,
-    ) -> Result<Vec<State<Configuration>>, Failure> {
-        match setting {
-            Setting::Steps(steps) => fixed::sample(self, problem, steps, samples),
-            Setting::Tolerance(tolerance) => adaptive::sample(self, problem, tolerance, samples),
-            Setting::Accuracy(accuracy) => piloted::sample(self, problem, accuracy, samples),
-        }
-    }
-
-    pub(super) fn misused(self, setting: Setting) -> Failure {
-        Failure::Control {
-            name: self.name(),
-            given: setting.to_string(),
-        }
-    }
-}
-
-/// The time that `work` takes.
-pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let begin = Instant::now();
-    let done = work();
-    (done, begin.elapsed())
 }

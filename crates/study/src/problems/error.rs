@@ -1,6 +1,6 @@
 //! Why a problem has no solution of the form asked for.
 
-use crate::on_group::ReferenceError;
+use crate::baseline::on_group::ReferenceError;
 
 /// Failure to pose a problem or to evaluate its solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -32,6 +32,7 @@ mod heavy_top;
 mod jacobi;
 mod kirchhoff;
 mod pendulum;
+mod reference;
 mod steady;
 
 pub use error::ProblemError;
@@ -39,12 +40,11 @@ pub use free_rigid_body::{FreeRigidBody, FreeRotation};
 pub use heavy_top::{HeavyTop, Nutation};
 pub use kirchhoff::Kirchhoff;
 pub use pendulum::{Pendulum, Swing};
+pub use reference::Reference;
 pub use steady::Steady;
 
 use dvi::{Lagrangian, LeftTranslation, RightTranslation, State, Symmetry, momentum_map};
 use lie::{LieGroup, Over, RealGroup, Scalar, VectorSpace};
-
-pub use crate::on_group::Reference;
 
 /// A test problem with its solution.
 #[derive(Clone, Debug, PartialEq)]

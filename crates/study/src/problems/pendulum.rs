@@ -6,9 +6,8 @@ use dvi::{Context, HamiltonianSystem, Lagrangian, State, System};
 use lie::{Cotangent, LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
 
 use super::jacobi::Jacobi;
-use super::{Problem, ProblemError, Solution, checked, finite, left, positive};
+use super::{Problem, ProblemError, Reference, Solution, checked, finite, left, positive};
 use crate::baseline::Tolerance;
-use crate::on_group::Reference;
 
 /// A rigid body on a frictionless pivot, $L = \frac12 \sum_i J_i \Omega_i^2 - m g\ (R \rho) \cdot e_3$.
 ///

@@ -235,7 +235,8 @@ mod tests {
         };
         let limit = |classes: [Class; 4]| {
             let steps = [0.1, 0.2, 0.3, 0.4];
-            let limit = Limit::new(Contender::Rk4, &problem, &steps, &classes.map(of), true);
+            let rk4 = "rk4".parse().unwrap();
+            let limit = Limit::new(rk4, &problem, &steps, &classes.map(of), true);
             (limit.step, limit.untried, limit.wall)
         };
         use Class::{EnergyDrift, Good, NotRun};

@@ -4,10 +4,9 @@ use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
 
 use super::outcome::WRONG;
-use crate::baseline::Tolerance;
+use crate::baseline::{Tolerance, on_group};
 use crate::contender::{Contender, Problem, Setting};
 use crate::methods::Method;
-use crate::on_group;
 use crate::watch::{Sample, fastest_rate};
 use crate::work_precision::apart;
 

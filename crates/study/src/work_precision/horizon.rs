@@ -6,8 +6,8 @@ use lie::VectorSpace;
 
 use super::reference::{TOLERANCE, apart};
 use crate::baseline::Tolerance;
+use crate::baseline::on_group::{self, ReferenceError};
 use crate::contender::Problem;
-use crate::on_group::{self, ReferenceError};
 
 /// Of the momenta, relative to the largest.
 const PERTURBATION: f64 = 1e-10;

@@ -7,9 +7,9 @@ use thiserror::Error;
 use super::errors::distance;
 use super::{Errors, Horizon, SAMPLES};
 use crate::baseline::Tolerance;
+use crate::baseline::on_group::{self, ReferenceError};
 use crate::contender::{Contender, Failure, Problem, Setting};
 use crate::methods::Method;
-use crate::on_group::{self, ReferenceError};
 use crate::watch::fastest_rate;
 
 /// Of the reference's steps.

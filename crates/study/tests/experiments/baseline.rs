@@ -1,15 +1,22 @@
 //! The Runge–Kutta baseline against exact solutions, and what it refuses.
 
-use study::baseline::{BaselineError, Pair, Samples, Tolerance, integrate};
+use allocation_counter::measure;
+use dvi::{Integrator, StepError};
+use study::baseline::{
+    self, BaselineError, Motion, Pair, RungeKutta, Samples, Tableau, Tolerance, Trajectory,
+    integrate,
+};
 
-const PAIRS: [Pair; 2] = [Pair::DormandPrince54, Pair::DormandPrince853];
+use crate::common::paper;
+
+const PAIRS: [&Pair; 2] = [&Pair::DP54, &Pair::DP853];
 
 fn oscillator(_t: f64, y: &[f64], dy: &mut [f64]) {
     dy[0] = y[1];
     dy[1] = -y[0];
 }
 
-fn oscillate(pair: Pair, until: f64, every: f64, tolerance: f64) -> Samples {
+fn oscillate(pair: &'static Pair, until: f64, every: f64, tolerance: f64) -> Samples {
     let tolerance = Tolerance::uniform(tolerance);
     integrate(pair, oscillator, &[1.0, 0.0], until, every, tolerance).expect("an oscillator")
 }
@@ -75,15 +82,12 @@ fn jacobi_solves_the_rigid_body() {
 
 #[test]
 fn a_tight_tolerance_is_a_reference() {
-    let error = worst(
-        &oscillate(Pair::DormandPrince853, 100.0, 0.0137, 1e-13),
-        cosine,
-    );
+    let error = worst(&oscillate(&Pair::DP853, 100.0, 0.0137, 1e-13), cosine);
     assert!(error < 4e-12, "oscillator {error:e}");
 
     let tolerance = Tolerance::uniform(1e-13);
     let run = integrate(
-        Pair::DormandPrince853,
+        &Pair::DP853,
         body,
         &[1.0, 0.0, 1.0],
         100.0,
@@ -125,7 +129,7 @@ fn the_right_hand_side_may_depend_on_time() {
             let run = solve(pair, tolerance);
             let error = worst(&run, exact);
             assert!(error < 100.0 * tolerance, "{pair} {tolerance:e}: {error:e}");
-            run.accepted as f64
+            run.work.accepted as f64
         });
         let slope = 1e3_f64.log10() / (steps[1] / steps[0]).log10();
         assert!((slope - order).abs() < 0.5, "{pair}: {slope}");
@@ -135,7 +139,7 @@ fn the_right_hand_side_may_depend_on_time() {
 #[test]
 fn the_number_of_steps_shows_the_order() {
     for (pair, order) in PAIRS.into_iter().zip([5.0, 8.0]) {
-        let steps = |tolerance| oscillate(pair, 200.0, 200.0, tolerance).accepted as f64;
+        let steps = |tolerance| oscillate(pair, 200.0, 200.0, tolerance).work.accepted as f64;
         let slope = 1e3_f64.log10() / (steps(1e-11) / steps(1e-8)).log10();
         assert!((slope - order).abs() < 0.3, "{pair}: {slope}");
     }
@@ -160,10 +164,10 @@ fn sampling_does_not_change_the_steps() {
             oscillate(pair, 30.0, 0.01, 1e-8),
         );
         assert_eq!(coarse.y.last(), fine.y.last());
-        assert_eq!(coarse.evaluations, fine.evaluations);
-        assert_eq!(coarse.accepted, fine.accepted);
-        assert_eq!(coarse.sampling_evaluations, 0);
-        assert!(fine.sampling_evaluations > 0);
+        assert_eq!(coarse.work.evaluations, fine.work.evaluations);
+        assert_eq!(coarse.work.accepted, fine.work.accepted);
+        assert_eq!(coarse.work.sampling_evaluations, 0);
+        assert!(fine.work.sampling_evaluations > 0);
     }
 }
 
@@ -186,6 +190,19 @@ fn the_grid_is_exact() {
 }
 
 #[test]
+fn rounding_makes_no_twin_of_the_end() {
+    let times = |until, every| oscillate(&Pair::DP853, until, every, 1e-3).t;
+    assert_eq!(times(1.0, 0.25), [0.0, 0.25, 0.5, 0.75, 1.0]);
+    assert_eq!(times(1.0, 0.4), [0.0, 0.4, 0.8, 1.0]);
+    assert_eq!(times(1.0, 7.0), [0.0, 1.0]);
+    for n in (1..2000).step_by(7) {
+        let every = 0.1;
+        assert_eq!(times(every * f64::from(n), every).len(), n as usize + 1);
+        assert_eq!(times(f64::from(n) / 10.0, every).len(), n as usize + 1);
+    }
+}
+
+#[test]
 fn every_call_is_counted() {
     for pair in PAIRS {
         let mut calls = 0;
@@ -194,15 +211,15 @@ fn every_call_is_counted() {
             oscillator(t, y, dy);
         };
         let run = integrate(pair, rhs, &[1.0, 0.0], 10.0, 0.1, Tolerance::uniform(1e-6)).unwrap();
-        assert_eq!(calls, run.evaluations + run.sampling_evaluations);
-        assert!(run.evaluations >= 6 * run.accepted);
+        assert_eq!(calls, run.work.evaluations + run.work.sampling_evaluations);
+        assert!(run.work.evaluations >= 6 * run.work.accepted);
     }
 }
 
 #[test]
 fn more_steps_than_the_stepper_takes_in_one_go() {
-    let run = oscillate(Pair::DormandPrince54, 2000.0, 100.0, 1e-13);
-    assert!(run.accepted > 150_000, "{}", run.accepted);
+    let run = oscillate(&Pair::DP54, 2000.0, 100.0, 1e-13);
+    assert!(run.work.accepted > 150_000, "{}", run.work.accepted);
     let error = worst(&run, cosine);
     assert!(error < 1e-9, "{error:e}");
 }
@@ -212,7 +229,7 @@ fn a_stiff_problem_is_slow_but_done() {
     let rhs = |t: f64, y: &[f64], dy: &mut [f64]| dy[0] = -2000.0 * (y[0] - t.cos());
     for pair in PAIRS {
         let run = integrate(pair, rhs, &[1.0], 20.0, 1.0, Tolerance::uniform(1e-6)).unwrap();
-        assert!(run.accepted > 5000);
+        assert!(run.work.accepted > 5000);
         assert!((run.y[20][0] - 20.0_f64.cos()).abs() < 1e-2);
     }
 }
@@ -230,15 +247,8 @@ fn rest_stays_at_rest() {
 fn inputs_out_of_range_are_named() {
     let run = |y0: &[f64], until, every, relative, absolute| {
         let tolerance = Tolerance { relative, absolute };
-        integrate(
-            Pair::DormandPrince54,
-            oscillator,
-            y0,
-            until,
-            every,
-            tolerance,
-        )
-        .expect_err("an input out of range")
+        integrate(&Pair::DP54, oscillator, y0, until, every, tolerance)
+            .expect_err("an input out of range")
     };
     let y0 = [1.0, 0.0];
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -259,10 +269,12 @@ fn inputs_out_of_range_are_named() {
         run(&[1.0, f64::NAN], 1.0, 0.1, 1e-9, 1e-9),
         BaselineError::InitialState { index: 1, .. }
     ));
-    assert!(matches!(
-        run(&y0, 1.0, 1e-12, 1e-9, 1e-9),
-        BaselineError::TooManySamples { .. }
-    ));
+    for every in [1e-12, 1e-300] {
+        assert!(matches!(
+            run(&y0, 1.0, every, 1e-9, 1e-9),
+            BaselineError::TooManySamples { .. }
+        ));
+    }
 }
 
 #[test]
@@ -329,8 +341,104 @@ fn a_solution_that_ends_is_an_error_there() {
     }
 }
 
+type Oscillator = fn(f64, &[f64], &mut [f64]);
+
+fn trajectory(pair: &'static Pair, (from, until): (f64, f64)) -> Trajectory<Oscillator> {
+    let (start, tolerance) = ((from, cosine(from)), Tolerance::uniform(1e-10));
+    let rhs = oscillator as Oscillator;
+    Trajectory::new(pair, rhs, (start.0, &start.1), until, tolerance).expect("a start")
+}
+
+#[test]
+fn a_state_is_found_when_it_is_asked_for() {
+    for pair in PAIRS {
+        let mut motion = trajectory(pair, (-3.0, 7.0));
+        assert_eq!(motion.reached(), (-3.0, &cosine(-3.0)[..]));
+        for t in [-3.0, -2.9, -2.9, 0.0, 0.001, 5.0, 7.0] {
+            let error = (motion.at(t).expect("a state")[0] - t.cos()).abs();
+            assert!(error < 1e-8, "{pair}, t = {t}: {error:e}");
+        }
+        assert_eq!(motion.reached().0, 7.0);
+        let whole = motion.work();
+        motion.step().expect("nothing");
+        assert_eq!(motion.work(), whole);
+    }
+}
+
+#[test]
+fn a_time_that_is_past_or_beyond_the_end_is_refused() {
+    for pair in PAIRS {
+        let mut motion = trajectory(pair, (0.0, 20.0));
+        for t in [-1.0, 20.1, f64::NAN, f64::INFINITY] {
+            let refused = motion.at(t).expect_err("no state");
+            assert!(matches!(refused, BaselineError::Time { .. }), "{refused}");
+        }
+        motion.at(19.0).expect("a state");
+        let refused = motion.at(1.0).expect_err("a step that is over");
+        assert!(matches!(refused, BaselineError::Time { t: 1.0, .. }));
+        assert!((motion.at(20.0).expect("an end")[0] - 20.0_f64.cos()).abs() < 1e-7);
+    }
+}
+
+#[test]
+fn what_was_reached_stays_after_a_failure() {
+    for pair in PAIRS {
+        let ends = |t: f64, _: &[f64], dy: &mut [f64]| dy[0] = (0.5 - t).sqrt();
+        let start = (0.0, [1.0].as_slice());
+        let mut motion: Trajectory<_> =
+            Trajectory::new(pair, ends, start, 1.0, Tolerance::uniform(1e-9)).expect("a start");
+        let before = motion.at(0.25).expect("a state")[0];
+        let refused = motion.at(0.75).expect_err("no state");
+        assert!(matches!(refused, BaselineError::NonFiniteRhs { .. }));
+        let (t, y) = motion.reached();
+        let (t, y) = (t, y[0]);
+        assert!(
+            t > 0.25 && t <= 0.5 && y.is_finite() && y > before,
+            "{t}: {y}"
+        );
+        assert_eq!(motion.at(t).expect("a state")[0], y);
+        motion.at(1.0).expect_err("no state either");
+        assert_eq!(motion.reached().1, [y]);
+    }
+}
+
+#[test]
+fn a_refused_step_leaves_the_state() {
+    let problem = paper(1.0);
+    for baseline in &baseline::ALL {
+        let Some(mut integrator) = baseline.integrator(&problem.model, &problem.start) else {
+            continue;
+        };
+        let mut state = problem.start.clone();
+        for h in [1e300, f64::NAN, 0.0] {
+            let refused = integrator.step(&mut state, h).expect_err("no step");
+            let invalid = matches!(refused, StepError::InvalidStep { .. });
+            let lost = matches!(refused, StepError::NotFinite { .. });
+            assert!(if h == 1e300 { lost } else { invalid }, "{refused}");
+            assert_eq!(state, problem.start);
+        }
+        integrator.step(&mut state, 0.01).expect("a step");
+    }
+}
+
+#[test]
+fn steps_on_vectors_do_not_allocate() {
+    let problem = paper(10.0);
+    let (model, start) = (&problem.model, &problem.start);
+    for pair in PAIRS {
+        let motion = Motion::new(pair, model, start, 10.0, Tolerance::uniform(1e-8));
+        let mut motion = motion.expect("a start");
+        let mut run = || (0..=100).for_each(|k| _ = motion.at(f64::from(k) / 10.0).unwrap());
+        assert_eq!(measure(&mut run).count_total, 0, "{pair}");
+    }
+    let mut integrator = RungeKutta::new(&Tableau::CLASSICAL, model.clone(), start);
+    let mut state = start.clone();
+    let mut run = || (0..100).for_each(|_| _ = integrator.step(&mut state, 0.01).unwrap());
+    assert_eq!(measure(&mut run).count_total, 0);
+}
+
 #[test]
 fn pairs_have_names() {
-    assert_eq!(Pair::DormandPrince54.to_string(), "Dormand–Prince 5(4)");
-    assert_eq!(Pair::DormandPrince853.to_string(), "Dormand–Prince 8(5,3)");
+    assert_eq!(Pair::DP54.to_string(), "Dormand–Prince 5(4)");
+    assert_eq!(Pair::DP853.to_string(), "Dormand–Prince 8(5,3)");
 }

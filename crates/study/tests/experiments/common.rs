@@ -1,7 +1,7 @@
-//! The paper's scene.
+//! The paper's scene, and contenders by name.
 
 use articulated_fluid::Scene;
-use study::contender::Problem;
+use study::contender::{Contender, Problem};
 
 /// For so many seconds.
 pub fn paper(until: f64) -> Problem {
@@ -12,4 +12,8 @@ pub fn paper(until: f64) -> Problem {
         start: scene.initial_state().unwrap(),
         until,
     }
+}
+
+pub fn named(name: &str) -> Contender {
+    name.parse().unwrap()
 }

@@ -4,11 +4,7 @@ use dvi::{Integrator, laws};
 use study::contender::{Contender, Control, Failure, Problem, Setting, UnknownContender};
 use study::work_precision::{Errors, Reference, SAMPLES};
 
-use crate::common::paper;
-
-fn named(name: &str) -> Contender {
-    name.parse().unwrap()
-}
+use crate::common::{named, paper};
 
 #[track_caller]
 fn order_is_as_declared(name: &str, steps: &[u32]) {
@@ -96,7 +92,7 @@ fn error_is_within(
     assert!(errors.attitude > least, "{name}, {setting}: {errors:?}");
 }
 
-/// Against the pair of a library, in charts: what all ratios of time are measured by goes where the motion goes, and no further from it
+/// Against the same pair in charts: what all ratios of time are measured by goes where the motion goes, and no further from it
 /// than its tolerance says.
 #[test]
 fn the_yardstick_is_accurate() {

@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use dvi::{State, StepError};
 use lie::{SO3, VectorSpace};
-use study::baseline::Tolerance;
+use study::baseline::{Tolerance, on_group};
 use study::contender::{Contender, Problem};
 use study::methods::{Family, Method};
-use study::on_group;
 use study::watch::{Sample, Watch, attitudes};
 
 /// A scene, and what each of [`Method::all`] makes of it: `G` must step, `-` may refuse.

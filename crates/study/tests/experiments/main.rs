@@ -1,4 +1,4 @@
-//! The baseline, the test problems, the figures, and what the methods show on systems: one program, for what they share is
+//! The baselines, the test problems, the figures, and what the methods show on systems: one program, for what they share is
 //! compiled once.
 
 mod baseline;
@@ -12,5 +12,6 @@ mod problems;
 mod scales;
 mod stability;
 mod systems;
+mod tableaux;
 mod views;
 mod work_precision;

@@ -11,8 +11,7 @@ mod welded;
 
 use dvi::{ContinuousSystem, Lagrangian, State};
 use lie::{LieGroup, RealGroup, VectorSpace};
-use study::baseline::Tolerance;
-use study::on_group;
+use study::baseline::{Tolerance, on_group};
 use study::problems::{Problem, Solution};
 
 /// Of the reference: its error over ten periods is then a few 1e-12, as that of the baseline on known motions.

@@ -2,16 +2,16 @@
 
 use std::time::Duration;
 
-use study::contender::{Contender, Problem, Setting};
+use study::contender::{Problem, Setting};
 use study::figure::{Labels, Marker};
 use study::work_precision::{
     Curve, Measured, Point, Reference, Sweep, Timing, cheapest, csv, picture,
 };
 
-use crate::common::paper;
+use crate::common::{named, paper};
 
 fn curve(name: &str, problem: &Problem, reference: &Reference) -> Curve {
-    let contender = name.parse().unwrap();
+    let contender = named(name);
     let timing = Timing {
         longest: Duration::from_millis(100),
         ..Timing::ONCE
@@ -115,7 +115,7 @@ fn what_fails_is_on_the_chart_with_its_cause() {
 fn a_method_that_only_fails_is_on_the_chart_by_name() {
     let problem = paper(1.0);
     let reference = Reference::new(&problem).unwrap();
-    let contender = Contender::Rk4;
+    let contender = named("rk4");
     let setting = Setting::Tolerance(1.0);
     let failure = contender.run(&problem, setting).unwrap_err();
     let points = vec![Point {
@@ -156,12 +156,12 @@ fn an_error_reached_by_luck_is_not_reached() {
     };
     let failed = |steps| Point {
         setting: Setting::Steps(steps),
-        outcome: Contender::Rk4
+        outcome: named("rk4")
             .run(&problem, Setting::Tolerance(1.0))
             .map(|_| good),
     };
     let lucky = Curve {
-        contender: Contender::Rk4,
+        contender: named("rk4"),
         points: vec![
             failed(1),
             at(2, 1e-7),
@@ -175,10 +175,10 @@ fn an_error_reached_by_luck_is_not_reached() {
     assert_eq!(choice(&lucky, 1e-4), Some(Setting::Steps(8)));
     assert_eq!(choice(&lucky, 1e-7), None);
     let fails_late = Curve {
-        contender: Contender::Cf4,
+        contender: named("cf4"),
         points: vec![at(1, 1e-9), failed(2)],
     };
     assert_eq!(choice(&fails_late, 1.0), None);
     let best = cheapest([&fails_late, &lucky], 1e-4).unwrap();
-    assert_eq!(best.contender, Contender::Rk4);
+    assert_eq!(best.contender, named("rk4"));
 }

@@ -1,7 +1,7 @@
 //! The free rigid body.
 
 use lie::{LieGroup, SO3, Tangent, Vec3};
-use study::on_group;
+use study::baseline::on_group;
 use study::problems::{FreeRigidBody, FreeRotation, Problem, ProblemError, Solution};
 
 use super::{TIGHT, distance, measure};

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use dvi::Lagrangian;
 use lie::{LieGroup, SO3, Tangent};
-use study::on_group;
+use study::baseline::on_group;
 use study::problems::{HeavyTop, Nutation, Problem, ProblemError, Solution};
 
 use super::{TIGHT, distance, measure};

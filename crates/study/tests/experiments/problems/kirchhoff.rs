@@ -3,7 +3,7 @@
 use articulated_fluid::Ellipsoid;
 use dvi::{Integrator, Lagrangian, Quadrature, Variational};
 use lie::{Exp, LieGroup, SE3, Tangent};
-use study::on_group;
+use study::baseline::on_group;
 use study::problems::{Kirchhoff, Problem, ProblemError, Solution, Steady};
 
 use super::{TIGHT, distance, measure};

@@ -4,10 +4,9 @@ use articulated_fluid::Scene;
 use articulated_fluid::scene::EXAMPLE;
 use dvi::{Context, Force, Forced, Lagrangian, State, System};
 use lie::{Cotangent, LieGroup, Rn, SO3, Scalar, Tangent, VectorSpace};
-use study::baseline::{Pair, Tolerance, integrate};
-use study::on_group::{self, ReferenceError};
+use study::baseline::on_group::{self, ReferenceError};
+use study::baseline::{Motion, Pair, Tolerance};
 use study::problems::{FreeRigidBody, Pendulum, Solution};
-use study::raw;
 
 use super::{TIGHT, distance};
 
@@ -94,11 +93,9 @@ fn the_chain_of_run_time_size_as_on_raw_entries() {
     );
     let (until, tolerance) = (2.0, Tolerance::uniform(1e-13));
     let end = on_group::integrate(&model, &start, until, tolerance).expect("a reference");
-    let rhs = raw::right_hand_side(&model, &start);
-    let y = raw::pack(&start);
-    let run = integrate(Pair::DormandPrince853, rhs, &y, until, until, tolerance).expect("a run");
-    let other = raw::unpack(until, run.y.last().expect("an end")).expect("a state");
-    let error = distance(&end, &other);
+    let motion = Motion::new(&Pair::DP853, &model, &start, until, tolerance);
+    let mut motion = motion.expect("a start");
+    let error = distance(&end, motion.at(until).expect("a state"));
     println!("fish chain, {until} s: {error:.1e} from the raw entries");
     assert!(error < 1e-10);
 }

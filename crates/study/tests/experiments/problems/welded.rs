@@ -2,8 +2,7 @@
 
 use dvi::{Context, Integrator, Lagrangian, Quadrature, State, System, Variational};
 use lie::{AlgebraOver, LieGroup, Mat3, Over, SE3, SO3, Scalar, Tangent, Vec3};
-use study::baseline::Tolerance;
-use study::on_group;
+use study::baseline::{Tolerance, on_group};
 
 use super::distance;
 

@@ -3,12 +3,17 @@
 use dvi::{ContinuousSystem, Integrator, State, StepError, StepReport};
 use lie::{LieGroup, RealGroup, VectorSpace};
 
-use super::check;
+use super::tableau::{Row, Tableau, sum};
+use super::{check_momentum, check_step};
 
 type Algebra<S> = <<S as ContinuousSystem>::Group as LieGroup>::Algebra;
 type Dual<S> = <<S as ContinuousSystem>::Group as LieGroup>::Dual;
 
-/// How the stages of the classical tableau are carried to the group.
+/// The method whose stages are carried to the group.
+const CLASSICAL: Tableau = Tableau::CLASSICAL;
+const STAGES: usize = CLASSICAL.stages();
+
+/// How the stages of the classical method are carried to the group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Scheme {
@@ -29,20 +34,15 @@ pub enum Scheme {
 /// $\mathrm d\exp_c^{-1} = 1 + \frac12 \mathrm{ad}_c + \dots$
 ///
 /// ```
-/// use dvi::{Integrator, Lagrangian};
-/// use lie::SO3;
-/// use study::explicit::{GroupRungeKutta, Scheme};
-/// use study::problems::{HeavyTop, Solution};
+/// use articulated_fluid::{Scene, scene};
+/// use dvi::Integrator;
+/// use study::baseline::{GroupRungeKutta, Scheme};
 ///
-/// let tilted = SO3::from_quaternion([1.0, 0.2, 0.0, 0.0]);
-/// let problem = HeavyTop::new(1.0, 0.5, 1.0)?.problem(tilted, [0.0, 0.0, 10.0])?;
-/// let mut integrator = GroupRungeKutta::new(problem.lagrangian.hamiltonian(), Scheme::MuntheKaas);
-/// let mut state = problem.start.clone();
-/// for _ in 0..100 {
-///     integrator.step(&mut state, 0.01)?;
-/// }
-/// let exact = problem.exact.at(1.0)?;
-/// assert!((*state.g.matrix() - *exact.g.matrix()).frobenius() < 1e-5);
+/// let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
+/// let (model, mut state) = (scene.model()?, scene.initial_state()?);
+/// let mut integrator = GroupRungeKutta::new(model.clone(), Scheme::MuntheKaas);
+/// (0..10).try_for_each(|_| integrator.step(&mut state, 0.1).map(drop))?;
+/// assert!(model.orthogonality_error(&state.g) < 1e-14);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 pub struct GroupRungeKutta<S: ContinuousSystem> {
@@ -52,40 +52,37 @@ pub struct GroupRungeKutta<S: ContinuousSystem> {
     storage: Option<Storage<S>>,
 }
 
-/// What of a scheme is not the classical tableau; rows weigh the stages' rates.
-struct Tableau {
-    last_stage: [f64; 4],
-    /// Whether the last stage goes on from the second one, not from the step's start.
-    from_second: bool,
-    /// The exponentials of the step, one after the other.
-    ends: &'static [[f64; 4]],
-}
-
-const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
-const FIRST_HALF: [f64; 4] = [0.5, 0.0, 0.0, 0.0];
-const SECOND_HALF: [f64; 4] = [0.0, 0.5, 0.0, 0.0];
-const WEIGHTS: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
-
-const CHART: Tableau = Tableau {
-    last_stage: [0.0, 0.0, 1.0, 0.0],
-    from_second: false,
-    ends: &[WEIGHTS],
-};
-
-const COMMUTATOR_FREE: Tableau = Tableau {
-    last_stage: [-0.5, 0.0, 1.0, 0.0],
-    from_second: true,
-    ends: &[
-        [0.25, 1.0 / 6.0, 1.0 / 6.0, -1.0 / 12.0],
-        [-1.0 / 12.0, 1.0 / 6.0, 1.0 / 6.0, 0.25],
-    ],
-};
+/// The last stage of the commutator-free method, after the second.
+const LAST: Row = &[(0, -0.5), (2, 1.0)];
+/// The exponentials of its step, one after the other.
+const ENDS: [Row; 2] = [
+    &[(0, 0.25), (1, 1.0 / 6.0), (2, 1.0 / 6.0), (3, -1.0 / 12.0)],
+    &[(0, -1.0 / 12.0), (1, 1.0 / 6.0), (2, 1.0 / 6.0), (3, 0.25)],
+];
 
 impl Scheme {
-    fn tableau(self) -> &'static Tableau {
+    /// The error at a fixed time falls as $h^{\text{order}}$.
+    #[must_use]
+    pub fn order(self) -> u32 {
         match self {
-            Self::CommutatorFree => &COMMUTATOR_FREE,
-            _ => &CHART,
+            Self::MuntheKaas | Self::CommutatorFree => CLASSICAL.order,
+            Self::WithoutDexp => 2,
+        }
+    }
+
+    /// The stage that stage `i` > 0 goes on from, and by what exponential.
+    fn stage(self, i: usize) -> (usize, Row) {
+        match (self, i) {
+            (Self::CommutatorFree, 3) => (1, LAST),
+            _ => (0, CLASSICAL.rows[i - 1]),
+        }
+    }
+
+    /// The exponentials from the start of a step to its end.
+    fn ends(self) -> &'static [Row] {
+        match self {
+            Self::CommutatorFree => &ENDS,
+            _ => &[CLASSICAL.weights],
         }
     }
 }
@@ -95,13 +92,14 @@ struct Storage<S: ContinuousSystem> {
     /// What the exponential is taken of, and the exponential.
     c: Algebra<S>,
     exp: S::Group,
-    stage: State<S::Group>,
-    second: S::Group,
+    /// The configuration at each stage.
+    stages: [S::Group; STAGES],
+    end: State<S::Group>,
     xi: Algebra<S>,
     /// The rate of `c` at each stage.
-    rates: [Algebra<S>; 4],
+    rates: [Algebra<S>; STAGES],
     /// The rate of the momentum at each stage.
-    forces: [Dual<S>; 4],
+    forces: [Dual<S>; STAGES],
 }
 
 impl<S: ContinuousSystem> GroupRungeKutta<S> {
@@ -120,10 +118,7 @@ impl<S: ContinuousSystem> Integrator for GroupRungeKutta<S> {
     type Group = S::Group;
 
     fn order(&self) -> u32 {
-        match self.scheme {
-            Scheme::MuntheKaas | Scheme::CommutatorFree => 4,
-            Scheme::WithoutDexp => 2,
-        }
+        self.scheme.order()
     }
 
     fn is_symmetric(&self) -> bool {
@@ -139,14 +134,15 @@ impl<S: ContinuousSystem> Integrator for GroupRungeKutta<S> {
     }
 
     fn step(&mut self, state: &mut State<S::Group>, h: f64) -> Result<StepReport, StepError> {
-        check(state, h, self.steps, self.system.fits(&state.g))?;
+        check_step(state, h, self.steps, self.system.fits(&state.g))?;
         let storage = match self.storage.take() {
-            Some(storage) if storage.stage.g.same_shape(&state.g) => storage,
+            Some(storage) if storage.end.g.same_shape(&state.g) => storage,
             _ => Storage::new(&self.system, state),
         };
         let storage = self.storage.insert(storage);
+        check_momentum(state, &storage.forces[0], self.steps)?;
         storage.step(&self.system, self.scheme, state, h);
-        let end = &mut storage.stage;
+        let end = &mut storage.end;
         let finite = end.g.is_finite() && end.mu.max_magnitude().is_finite();
         if !(finite && self.system.is_defined(state.t + h, &end.g)) {
             let (step, t) = (self.steps, state.t);
@@ -166,74 +162,67 @@ impl<S: ContinuousSystem> Storage<S> {
             workspace: system.workspace::<f64>(&state.g),
             c: zero(),
             exp: state.g.clone(),
-            stage: state.clone(),
-            second: state.g.clone(),
+            stages: core::array::from_fn(|_| state.g.clone()),
+            end: State {
+                t: state.t,
+                g: state.g.clone(),
+                mu: state.g.zero_dual(),
+            },
             xi: zero(),
             rates: core::array::from_fn(|_| zero()),
             forces: core::array::from_fn(|_| state.g.zero_dual()),
         }
     }
 
-    /// Leaves the end of the step in `stage`.
+    /// Leaves the end of the step in `end`.
     fn step(&mut self, system: &S, scheme: Scheme, from: &State<S::Group>, h: f64) {
-        let tableau = scheme.tableau();
-        let rows = [[0.0; 4], FIRST_HALF, SECOND_HALF, tableau.last_stage];
-        for (i, row) in rows.into_iter().enumerate() {
+        self.stages[0].copy_from(&from.g);
+        self.evaluate(system, from, h, 0);
+        self.rates[0].copy_from(&self.xi);
+        for i in 1..STAGES {
+            let (base, row) = scheme.stage(i);
             self.exponential(h, row);
-            let base = match i == 3 && tableau.from_second {
-                true => &self.second,
-                false => &from.g,
-            };
-            base.compose_into(&self.exp, &mut self.stage.g);
-            if i == 1 {
-                self.second.copy_from(&self.stage.g);
-            }
+            let (before, stage) = self.stages.split_at_mut(i);
+            before[base].compose_into(&self.exp, &mut stage[0]);
             self.evaluate(system, from, h, i);
             match scheme {
-                Scheme::MuntheKaas if i > 0 => {
-                    self.rates[i] = S::Group::dexp_inv(&self.c, &self.xi);
-                }
+                Scheme::MuntheKaas => self.rates[i] = S::Group::dexp_inv(&self.c, &self.xi),
                 _ => self.rates[i].copy_from(&self.xi),
             }
         }
-        self.finish(tableau, from, h);
+        for row in scheme.ends() {
+            self.exponential(h, row);
+            self.stages[0].compose_into(&self.exp, &mut self.end.g);
+            self.stages[0].copy_from(&self.end.g);
+        }
+        self.end.g.normalize();
+        self.momentum(from, h, CLASSICAL.weights);
     }
 
-    /// The exponential of the stages' rates by weight.
-    fn exponential(&mut self, h: f64, weights: [f64; 4]) {
+    /// The exponential of a sum of rates.
+    fn exponential(&mut self, h: f64, row: Row) {
         self.c.set_zero();
-        for (weight, rate) in weights.into_iter().zip(&self.rates) {
-            if weight != 0.0 {
-                self.c.add_scaled(weight * h, rate);
-            }
+        for (j, a) in row {
+            self.c.add_scaled(a * h, &self.rates[*j]);
         }
         S::Group::exp_into(&self.c, &mut self.exp);
     }
 
-    /// Velocity and force of stage `i`, whose configuration is there.
-    fn evaluate(&mut self, system: &S, from: &State<S::Group>, h: f64, i: usize) {
-        let t = from.t + NODES[i] * h;
-        let (g, mu, force) = (&self.stage.g, &mut self.stage.mu, &mut self.forces);
-        mu.copy_from(&from.mu);
-        if i > 0 {
-            mu.add_scaled(NODES[i] * h, &force[i - 1]);
+    /// Leaves the momentum by a row of the tableau in `end`.
+    fn momentum(&mut self, from: &State<S::Group>, h: f64, row: Row) {
+        self.end.mu.copy_from(&from.mu);
+        for (j, a) in row {
+            self.end.mu.add_scaled(a * h, &self.forces[*j]);
         }
-        let (xi, force) = (&mut self.xi, &mut force[i]);
-        system.velocity_and_force::<f64>(t, g, mu, &mut self.workspace, xi, force);
-        force.add_scaled(1.0, &S::Group::coadjoint_bracket(xi, mu));
     }
 
-    fn finish(&mut self, tableau: &Tableau, from: &State<S::Group>, h: f64) {
-        self.second.copy_from(&from.g);
-        for row in tableau.ends {
-            self.exponential(h, *row);
-            self.second.compose_into(&self.exp, &mut self.stage.g);
-            self.second.copy_from(&self.stage.g);
-        }
-        self.stage.g.normalize();
-        self.stage.mu.copy_from(&from.mu);
-        for (weight, force) in WEIGHTS.into_iter().zip(&self.forces) {
-            self.stage.mu.add_scaled(weight * h, force);
-        }
+    /// Velocity and force of stage `i`, whose configuration is there.
+    fn evaluate(&mut self, system: &S, from: &State<S::Group>, h: f64, i: usize) {
+        let row = i.checked_sub(1).map_or(&[][..], |i| CLASSICAL.rows[i]);
+        self.momentum(from, h, row);
+        let (t, g, mu) = (from.t + sum(row) * h, &self.stages[i], &self.end.mu);
+        let (xi, force) = (&mut self.xi, &mut self.forces[i]);
+        system.velocity_and_force::<f64>(t, g, mu, &mut self.workspace, xi, force);
+        force.add_scaled(1.0, &S::Group::coadjoint_bracket(xi, mu));
     }
 }

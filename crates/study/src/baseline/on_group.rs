@@ -2,40 +2,32 @@
 //!
 //! Hamilton's equations in the chart $g = g_0 \exp(c)$,
 //! $$ \dot c = \mathrm d\exp_c^{-1} \xi, \qquad \dot\mu = \mathrm{ad}^\ast_\xi \mu + \tau, $$
-//! by the Dormand–Prince pair 8(5,3) of [`baseline`]. Where $c$ has grown to about one, the chart is moved:
+//! by the Dormand–Prince pair [8(5,3)](super::Pair::DP853). Where $c$ has grown to one, the chart is moved:
 //! $g_0 \leftarrow g_0 \exp(c)$. So the configuration stays on the group, and no formula is shared with a variational method but
 //! those of the group and of the system.
 //!
 //! ```
-//! use dvi::Lagrangian;
-//! use lie::SO3;
-//! use study::baseline::Tolerance;
-//! use study::on_group::integrate;
-//! use study::problems::{HeavyTop, Solution};
+//! use articulated_fluid::{Scene, scene};
+//! use study::baseline::{Tolerance, on_group};
 //!
-//! let tilted = SO3::from_quaternion([1.0, 0.2, 0.0, 0.0]);
-//! let problem = HeavyTop::new(1.0, 0.5, 1.0)?.problem(tilted, [0.0, 0.0, 10.0])?;
-//! let system = problem.lagrangian.hamiltonian();
-//! let end = integrate(&system, &problem.start, problem.time, Tolerance::uniform(1e-13))?;
-//! let exact = problem.exact.at(problem.time)?;
-//! assert!((*end.g.matrix() - *exact.g.matrix()).frobenius() < 1e-11);
+//! let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
+//! let (model, start) = (scene.model()?, scene.initial_state()?);
+//! let end = on_group::integrate(&model, &start, 1.0, Tolerance::uniform(1e-12))?;
+//! assert!(model.orthogonality_error(&end.g) < 1e-14);
+//! let (before, after) = (model.conserved(&start)?, model.conserved(&end)?);
+//! assert!((after.energy / before.energy - 1.0).abs() < 1e-11);
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
 use dvi::{ContinuousSystem, State};
 use lie::{Exp, LieGroup, Retraction, VectorSpace};
 
-use crate::baseline::{self, BaselineError, Pair, Tolerance};
-use crate::problems::{ProblemError, Solution};
+use super::{BaselineError, Pair, RightHandSide, Tolerance, Trajectory};
 
 /// Coordinates in the chart larger than this are not used; $\mathrm d\exp$ is singular at angles of $2\pi$.
 const CHART: f64 = 2.0;
-/// The chart is moved when its coordinates are expected to reach this.
-const WANTED: f64 = 1.0;
-/// A segment is at most this many times as long as the one before it.
-const GROWTH: f64 = 2.0;
-/// A segment is halved this often before a right-hand side without an answer is the system's own.
-const MAX_HALVINGS: u32 = 40;
+/// The chart is moved after a step to coordinates larger than this.
+const LARGE: f64 = 1.0;
 
 /// Why there is no reference solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -72,9 +64,10 @@ pub fn integrate<S: ContinuousSystem>(
 ) -> Result<State<S::Group>, ReferenceError> {
     check(system, start, until)?;
     let mut chart = Chart::new(system, start);
-    let mut length = (until - start.t).abs();
     while chart.state.t != until {
-        length = chart.advance(until, length, tolerance)?;
+        let t = chart.state.t;
+        let advanced = chart.advance(until, tolerance);
+        advanced.map_err(|source| ReferenceError::Integration { t, source })?;
     }
     Ok(chart.state)
 }
@@ -96,23 +89,6 @@ pub fn sample<S: ContinuousSystem>(
         states.push(last.clone());
     }
     Ok(states)
-}
-
-/// The motion of a system as [`integrate`] finds it, anew from the start at every call.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reference<S: ContinuousSystem> {
-    /// The system.
-    pub system: S,
-    /// The state at its own time.
-    pub start: State<S::Group>,
-    /// Of the steps.
-    pub tolerance: Tolerance,
-}
-
-impl<S: ContinuousSystem> Solution<S::Group> for Reference<S> {
-    fn at(&self, t: f64) -> Result<State<S::Group>, ProblemError> {
-        Ok(integrate(&self.system, &self.start, t, self.tolerance)?)
-    }
 }
 
 fn check<S: ContinuousSystem>(
@@ -153,56 +129,43 @@ impl<'a, S: ContinuousSystem> Chart<'a, S> {
         }
     }
 
-    /// Runs one segment of at most `length`, s, towards `until`, and says how long the next one may be.
-    fn advance(
-        &mut self,
-        until: f64,
-        mut length: f64,
-        tolerance: Tolerance,
-    ) -> Result<f64, ReferenceError> {
-        let mut halvings = 0;
-        loop {
-            let left = until - self.state.t;
-            // A remainder of rounding would be a segment of its own.
-            let last = length >= 0.99 * left.abs();
-            let step = if last { left } else { length.copysign(left) };
-            match self.segment(step, tolerance) {
-                Ok(y) => {
-                    let reached = self.rebase(&y, if last { until } else { self.state.t + step });
-                    return Ok(step.abs() * (WANTED / reached).min(GROWTH));
-                }
-                Err(BaselineError::NonFiniteRhs { .. }) if halvings < MAX_HALVINGS => {
-                    halvings += 1;
-                    length = 0.5 * step.abs();
-                }
-                Err(source) => {
-                    let t = self.state.t;
-                    return Err(ReferenceError::Integration { t, source });
-                }
-            }
-        }
-    }
-
-    /// The chart's coordinates and the momentum after the time `step`, which may be negative.
-    fn segment(&mut self, step: f64, tolerance: Tolerance) -> Result<Vec<f64>, BaselineError> {
-        let (start, length, sense) = (self.state.t, step.abs(), step.signum());
-        let mut y = vec![0.0; self.c.dim()];
+    /// Steps towards `until` as long as the chart's coordinates are small, and moves the chart there.
+    fn advance(&mut self, until: f64, tolerance: Tolerance) -> Result<(), BaselineError> {
+        let (start, way, dim) = (self.state.t, until - self.state.t, self.c.dim());
+        let (length, sense) = (way.abs(), way.signum());
+        let mut y = vec![0.0; dim];
         y.extend(self.state.mu.coordinates());
-        let rhs = |s: f64, y: &[f64], dy: &mut [f64]| {
+        let mut rhs = |s: f64, y: &[f64], dy: &mut [f64]| {
             self.derivative(start + sense * s, y, dy);
             dy.iter_mut().for_each(|rate| *rate *= sense);
         };
-        let run = baseline::integrate(Pair::DormandPrince853, rhs, &y, length, length, tolerance);
-        Ok(run?.y.pop().unwrap_or(y))
+        // Its type forgotten, the method is compiled once, and not for every system again.
+        let rhs: &mut dyn RightHandSide = &mut rhs;
+        let pair = &Pair::DP853;
+        let mut trajectory: Trajectory<_> =
+            Trajectory::new(pair, rhs, (0.0, &y), length, tolerance)?;
+        let mut s = 0.0;
+        while s < length && y[..dim].iter().all(|c| c.abs() < LARGE) {
+            trajectory.step()?;
+            let reached = trajectory.reached();
+            s = reached.0;
+            y.copy_from_slice(reached.1);
+        }
+        let t = if s == length {
+            until
+        } else {
+            start + sense * s
+        };
+        self.rebase(&y, t);
+        Ok(())
     }
 
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         let (c, mu) = y.split_at(self.c.dim());
         self.c.read(c);
         self.mu.read(mu);
-        if self.c.max_magnitude() > CHART {
-            dy.fill(f64::NAN);
-            return;
+        if !c.iter().all(|c| c.abs() <= CHART) {
+            return dy.fill(f64::NAN);
         }
         let g = self.state.g.compose(&S::Group::exp(&self.c));
         let (xi, tau) = (&mut self.xi, &mut self.tau);
@@ -214,14 +177,13 @@ impl<'a, S: ContinuousSystem> Chart<'a, S> {
         tau.write(dmu);
     }
 
-    /// Moves the chart to where the segment ended, and says how far that was in the old one.
-    fn rebase(&mut self, y: &[f64], t: f64) -> f64 {
+    /// Moves the chart.
+    fn rebase(&mut self, y: &[f64], t: f64) {
         let (c, mu) = y.split_at(self.c.dim());
         self.c.read(c);
         self.state.mu.read(mu);
         self.state.g = self.state.g.compose(&S::Group::exp(&self.c));
         self.state.g.normalize();
         self.state.t = t;
-        self.c.max_magnitude()
     }
 }

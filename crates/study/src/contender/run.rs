@@ -1,0 +1,187 @@
+//! Contenders on their way.
+
+use std::time::Instant;
+
+use articulated_fluid::Configuration;
+use dvi::{Pilot, State};
+
+use super::{Contender, Cost, Failure, Problem, Setting};
+use crate::baseline::{Motion, Tolerance};
+use crate::methods::BoxedIntegrator;
+
+impl Contender {
+    /// The integrator of a contender that takes steps of one size; `None` of any other.
+    pub fn integrator(self, problem: &Problem) -> Option<BoxedIntegrator<Configuration>> {
+        self.fixed(problem).map(|(integrator, _)| integrator)
+    }
+
+    /// The same, with its evaluations in a step and in an iteration of its solver.
+    fn fixed(self, problem: &Problem) -> Option<(BoxedIntegrator<Configuration>, [u64; 2])> {
+        let Problem { model, start, .. } = problem;
+        match self {
+            Self::Structure(method) => {
+                let evaluations = [0, method.evaluations_per_iteration().into()];
+                Some((method.integrator(model.clone()), evaluations))
+            }
+            Self::Pilot => None,
+            Self::Baseline(baseline) => {
+                let evaluations = [baseline.stages() as u64, 0];
+                Some((baseline.integrator(model, start)?, evaluations))
+            }
+        }
+    }
+
+    fn misused(self, setting: Setting) -> Failure {
+        Failure::Control {
+            name: self.name(),
+            given: setting.to_string(),
+        }
+    }
+
+    /// Runs to the end without looking at what is between.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn run(self, problem: &Problem, setting: Setting) -> Result<Cost, Failure> {
+        let mut run = Run::begin(self, problem, setting)?;
+        let begin = Instant::now();
+        run.at(1, 1)?;
+        let time = begin.elapsed();
+        Ok(Cost { time, ..run.cost() })
+    }
+
+    /// The states at $k T / n$ for $k = 0, \dots, n$, $T$ the end and $n$ = `samples`; the steps are those of [`run`](Self::run), and what
+    /// lies inside a step is a shorter step of the method, not interpolated.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub fn sample(
+        self,
+        problem: &Problem,
+        setting: Setting,
+        samples: u64,
+    ) -> Result<Vec<State<Configuration>>, Failure> {
+        let mut run = Run::begin(self, problem, setting)?;
+        (0..=samples).map(|k| run.at(k, samples)).collect()
+    }
+}
+
+/// A run on its way.
+enum Run<'a> {
+    Fixed(Walk<'a>),
+    Adaptive(Motion, &'a Problem),
+}
+
+impl<'a> Run<'a> {
+    fn begin(
+        contender: Contender,
+        problem: &'a Problem,
+        setting: Setting,
+    ) -> Result<Self, Failure> {
+        let (model, start, until) = (&problem.model, &problem.start, problem.until);
+        let misused = || contender.misused(setting);
+        match (contender, setting) {
+            (_, Setting::Steps(steps)) => {
+                let fixed = contender.fixed(problem).ok_or_else(misused)?;
+                Ok(Self::Fixed(Walk::new(problem, steps, fixed)))
+            }
+            (Contender::Pilot, Setting::Accuracy(accuracy)) => {
+                let pilot = Pilot::run(model, start, until, accuracy)?;
+                // A whole number but for rounding; of a long run only the beginning was tried, and its steps get no longer.
+                let steps = (until / pilot.h - 1e-6).ceil() as u64;
+                let fixed = (pilot.integrator(model.clone()), [0, pilot.stages as u64]);
+                Ok(Self::Fixed(Walk::new(problem, steps, fixed)))
+            }
+            (Contender::Baseline(baseline), Setting::Tolerance(tolerance)) => {
+                let tolerance = Tolerance::uniform(tolerance);
+                let motion = baseline.motion(model, start, until, tolerance);
+                Ok(Self::Adaptive(motion.ok_or_else(misused)??, problem))
+            }
+            _ => Err(misused()),
+        }
+    }
+
+    /// The state at $k T / n$, not before the last one asked for.
+    fn at(&mut self, k: u64, n: u64) -> Result<State<Configuration>, Failure> {
+        match self {
+            Self::Fixed(walk) => walk.at(k, n),
+            Self::Adaptive(motion, problem) => Ok(motion.at(problem.time(k, n))?.clone()),
+        }
+    }
+
+    /// The cost so far, but for the time.
+    fn cost(&self) -> Cost {
+        match self {
+            Self::Fixed(walk) => walk.cost(),
+            Self::Adaptive(motion, _) => {
+                let work = motion.work();
+                Cost {
+                    steps: work.accepted as u64,
+                    evaluations: work.evaluations as u64,
+                    ..Cost::default()
+                }
+            }
+        }
+    }
+}
+
+/// Steps of one size.
+struct Walk<'a> {
+    integrator: BoxedIntegrator<Configuration>,
+    problem: &'a Problem,
+    state: State<Configuration>,
+    steps: u64,
+    done: u64,
+    iterations: u64,
+    /// In a step, and in an iteration of its solver.
+    evaluations: [u64; 2],
+}
+
+impl<'a> Walk<'a> {
+    fn new(
+        problem: &'a Problem,
+        steps: u64,
+        (integrator, evaluations): (BoxedIntegrator<Configuration>, [u64; 2]),
+    ) -> Self {
+        Self {
+            integrator,
+            problem,
+            state: problem.start.clone(),
+            steps,
+            done: 0,
+            iterations: 0,
+            evaluations,
+        }
+    }
+
+    fn at(&mut self, k: u64, n: u64) -> Result<State<Configuration>, Failure> {
+        // In integers, so that a sample at a step's end is that step's.
+        let position = u128::from(k) * u128::from(self.steps);
+        let (whole, rest) = (position / u128::from(n), position % u128::from(n));
+        let h = self.problem.until / self.steps as f64;
+        while u128::from(self.done) < whole {
+            let report = self.integrator.step(&mut self.state, h)?;
+            self.iterations += u64::from(report.iterations);
+            self.done += 1;
+        }
+        let mut state = match rest {
+            0 => self.state.clone(),
+            rest => {
+                let ahead = h * rest as f64 / n as f64;
+                self.integrator.peek(&self.state, ahead)?
+            }
+        };
+        state.t = self.problem.time(k, n);
+        Ok(state)
+    }
+
+    fn cost(&self) -> Cost {
+        let [in_step, in_iteration] = self.evaluations;
+        Cost {
+            steps: self.done,
+            evaluations: self.done * in_step + self.iterations * in_iteration,
+            iterations: self.iterations,
+            ..Cost::default()
+        }
+    }
+}
