@@ -1,85 +1,54 @@
-//! The integrators of the fish chain's model, each under one name.
+//! The integrators of a scene's model, each under one name.
 //!
 //! ```
-//! use study::methods::Method;
+//! use sim::Method;
 //!
 //! let method: Method = "gauss-4".parse()?;
 //! assert_eq!((method.order(), method.to_string()), (8, "gauss-4".to_owned()));
 //! let error = "gauss-9".parse::<Method>().unwrap_err();
 //! assert!(error.to_string().contains("gauss-8"));
-//! # Ok::<(), study::methods::UnknownMethod>(())
+//! # Ok::<(), sim::method::UnknownMethod>(())
 //! ```
 
 use core::fmt;
 use core::str::FromStr;
 
-use articulated_fluid::planar::{PlanarBody, PlanarConfiguration};
-use articulated_fluid::{ArticulatedBody, Configuration, Smallest};
-use dvi::{Adjoint, Composition, Gauss, Integrator, Variational};
+use articulated_fluid::{Configuration, Smallest};
+use dvi::{
+    Adjoint, Composition, ContinuousSystem, DiscreteLagrangian, Gauss, Inertia, Integrator,
+    Variational,
+};
+use serde::{Serialize, Serializer};
 use thiserror::Error;
 
 /// An integrator chosen at run time.
 pub type BoxedIntegrator<G> = Box<dyn Integrator<Group = G> + Send>;
 
-/// The integrator of a method for a model of any kind.
-macro_rules! integrator {
-    ($method:expr, $model:expr) => {
-        match $method {
-            Method::Lgvi => Box::new(Variational::with_inertia($model)),
-            Method::LgviAdjoint => Box::new(Variational::new(Adjoint($model))),
-            Method::Composition2 => Box::new(Composition::<_, 2>::new($model)),
-            Method::Composition4 => Box::new(Composition::<_, 4>::new($model)),
-            Method::Composition6 => Box::new(Composition::<_, 6>::new($model)),
-            Method::Composition8 => Box::new(Composition::<_, 8>::new($model)),
-            Method::Gauss1 => Box::new(Gauss::<_, 1>::new($model)),
-            Method::Gauss2 => Box::new(Gauss::<_, 2>::new($model)),
-            Method::Gauss3 => Box::new(Gauss::<_, 3>::new($model)),
-            Method::Gauss4 => Box::new(Gauss::<_, 4>::new($model)),
-            Method::Gauss5 => Box::new(Gauss::<_, 5>::new($model)),
-            Method::Gauss6 => Box::new(Gauss::<_, 6>::new($model)),
-            Method::Gauss7 => Box::new(Gauss::<_, 7>::new($model)),
-            Method::Gauss8 => Box::new(Gauss::<_, 8>::new($model)),
-        }
-    };
+/// A model in both forms, discrete and continuous: every method steps it.
+pub trait Model:
+    Inertia<Factor: Send>
+    + ContinuousSystem<Group = <Self as DiscreteLagrangian>::Group>
+    + Clone
+    + Send
+    + 'static
+{
 }
 
-/// An integrator of [`ArticulatedBody`], chosen at run time.
-///
-/// All of them stay on the group and are symplectic, and keep the momentum maps to rounding; they differ in order, in symmetry
-/// and in cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Method {
-    /// The paper's: the stepping map of its discrete Lagrangian (22), which looks at the start of the step; order 1.
-    #[default]
-    Lgvi,
-    /// Its [adjoint](Adjoint), which looks at the end of the step; order 1.
-    LgviAdjoint,
-    /// Half a step of the paper's and half a step of its adjoint; order 2.
-    Composition2,
-    /// Five of these pairs; order 4.
-    Composition4,
-    /// Nine of these pairs; order 6.
-    Composition6,
-    /// Seventeen of these pairs; order 8.
-    Composition8,
-    /// Variational [`Gauss`] collocation of one stage; order 2.
-    Gauss1,
-    /// Of two stages; order 4.
-    Gauss2,
-    /// Of three stages; order 6.
-    Gauss3,
-    /// Of four stages; order 8.
-    Gauss4,
-    /// Of five stages; order 10.
-    Gauss5,
-    /// Of six stages; order 12.
-    Gauss6,
-    /// Of seven stages; order 14.
-    Gauss7,
-    /// Of eight stages; order 16.
-    Gauss8,
+impl<M> Model for M where
+    M: Inertia<Factor: Send>
+        + ContinuousSystem<Group = <M as DiscreteLagrangian>::Group>
+        + Clone
+        + Send
+        + 'static
+{
 }
+
+/// An integrator of a [`Model`], chosen at run time by its name; the default is the paper's.
+///
+/// All of them stay on the group, are symplectic, and keep the momentum maps to rounding. They differ in order, in symmetry and in cost.
+/// As serialised, a method is all that is known of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Method(usize);
 
 /// How a method makes a step, and so what a [report](dvi::StepReport) of it counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -87,7 +56,9 @@ pub enum Method {
 pub enum Family {
     /// One implicit step of a discrete Lagrangian: an iteration evaluates its derivatives once.
     Variational,
-    /// Implicit steps one after the other: an iteration evaluates the derivatives of one of them once.
+    /// The same of its [adjoint](dvi::Adjoint).
+    Adjoint,
+    /// Steps of both in turn: an iteration evaluates the derivatives of one of them once.
     Composition {
         /// How many.
         substeps: u32,
@@ -99,95 +70,37 @@ pub enum Family {
     },
 }
 
-/// What a step evaluates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Evaluation {
-    /// The two derivatives of the discrete Lagrangian, (29)–(33).
-    DiscreteDerivatives,
-    /// The velocity and the force of the continuous model, (8)–(20).
-    VelocityAndForce,
-}
-
-impl fmt::Display for Evaluation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::DiscreteDerivatives => "derivatives of the discrete Lagrangian",
-            Self::VelocityAndForce => "velocity and force of the continuous model",
-        })
-    }
-}
-
-/// What a method keeps beside its order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Conserved {
-    /// The configuration stays on its group.
-    Group,
-    /// The symplectic form; the energy's error stays bounded with it.
-    SymplecticForm,
-    /// The momentum maps of the symmetries: linear and angular momentum, to rounding.
-    MomentumMaps,
-    /// A step of `-h` undoes a step of `h`.
-    Reversibility,
-}
-
-impl fmt::Display for Conserved {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Group => "group",
-            Self::SymplecticForm => "symplectic form",
-            Self::MomentumMaps => "momentum maps",
-            Self::Reversibility => "reversibility",
-        })
-    }
-}
-
-/// No method has this name.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("no method is called `{name}`; expected one of {}", names())]
-pub struct UnknownMethod {
-    /// What was asked for.
-    pub name: String,
-}
-
-fn names() -> String {
-    Method::all()
-        .map(Method::name)
-        .collect::<Vec<_>>()
-        .join(", ")
-}
-
-/// What is known of a method but for its construction.
+/// What is known of a method: a new one is a new entry of [`TABLE`].
 struct Entry {
-    method: Method,
     name: &'static str,
     order: u32,
     family: Family,
     /// s.
     default_step: f64,
     evaluations_per_step: u32,
+    description: &'static str,
 }
 
-/// The last are the default step in seconds and the evaluations in it.
 const fn entry(
-    method: Method,
     name: &'static str,
     order: u32,
     family: Family,
-    (default_step, evaluations_per_step): (f64, u32),
+    default_step: f64,
+    evaluations_per_step: u32,
+    description: &'static str,
 ) -> Entry {
     Entry {
-        method,
         name,
         order,
         family,
         default_step,
         evaluations_per_step,
+        description,
     }
 }
 
 const VARIATIONAL: Family = Family::Variational;
+const ADJOINT: Family = Family::Adjoint;
 
 const fn composition(substeps: u32) -> Family {
     Family::Composition { substeps }
@@ -197,41 +110,54 @@ const fn gauss(stages: u32) -> Family {
     Family::Gauss { stages }
 }
 
-/// In the order of [`Method`]'s variants.
+/// Name, order, family, default step, evaluations in it, description.
 #[rustfmt::skip]
 const TABLE: [Entry; 14] = [
-    entry(Method::Lgvi,          "lgvi",            1, VARIATIONAL,      (0.001, 2)),
-    entry(Method::LgviAdjoint,   "lgvi-adjoint",    1, VARIATIONAL,      (0.001, 6)),
-    entry(Method::Composition2,  "composition-2",   2, composition(2),   (0.01, 19)),
-    entry(Method::Composition4,  "composition-4",   4, composition(10),  (0.05, 120)),
-    entry(Method::Composition6,  "composition-6",   6, composition(18),  (0.1, 200)),
-    entry(Method::Composition8,  "composition-8",   8, composition(34),  (0.1, 380)),
-    entry(Method::Gauss1,        "gauss-1",         2, gauss(1),         (0.01, 13)),
-    entry(Method::Gauss2,        "gauss-2",         4, gauss(2),         (0.05, 37)),
-    entry(Method::Gauss3,        "gauss-3",         6, gauss(3),         (0.1, 68)),
-    entry(Method::Gauss4,        "gauss-4",         8, gauss(4),         (0.1, 72)),
-    entry(Method::Gauss5,        "gauss-5",        10, gauss(5),         (0.2, 140)),
-    entry(Method::Gauss6,        "gauss-6",        12, gauss(6),         (0.2, 130)),
-    entry(Method::Gauss7,        "gauss-7",        14, gauss(7),         (0.2, 120)),
-    entry(Method::Gauss8,        "gauss-8",        16, gauss(8),         (0.25, 160)),
+    entry("lgvi",            1, VARIATIONAL,     0.001,   2, "the integrator of Lee, Leok & McClamroch (2009)"),
+    entry("lgvi-adjoint",    1, ADJOINT,         0.001,   6, "adjoint of lgvi: it looks at the end of a step"),
+    entry("composition-2",   2, composition(2),   0.01,  19, "symmetric composition of lgvi and its adjoint, 2 substeps"),
+    entry("composition-4",   4, composition(10),  0.05, 120, "symmetric composition of lgvi and its adjoint, 10 substeps"),
+    entry("composition-6",   6, composition(18),   0.1, 200, "symmetric composition of lgvi and its adjoint, 18 substeps"),
+    entry("composition-8",   8, composition(34),   0.1, 380, "symmetric composition of lgvi and its adjoint, 34 substeps"),
+    entry("gauss-1",         2, gauss(1),         0.01,  13, "variational Gauss collocation, 1 stage"),
+    entry("gauss-2",         4, gauss(2),         0.05,  37, "variational Gauss collocation, 2 stages"),
+    entry("gauss-3",         6, gauss(3),          0.1,  68, "variational Gauss collocation, 3 stages"),
+    entry("gauss-4",         8, gauss(4),          0.1,  72, "variational Gauss collocation, 4 stages"),
+    entry("gauss-5",        10, gauss(5),          0.2, 140, "variational Gauss collocation, 5 stages"),
+    entry("gauss-6",        12, gauss(6),          0.2, 130, "variational Gauss collocation, 6 stages"),
+    entry("gauss-7",        14, gauss(7),          0.2, 120, "variational Gauss collocation, 7 stages"),
+    entry("gauss-8",        16, gauss(8),         0.25, 160, "variational Gauss collocation, 8 stages"),
 ];
-
-const _: () = {
-    let mut i = 0;
-    while i < TABLE.len() {
-        assert!(TABLE[i].method as usize == i, "TABLE is out of order");
-        i += 1;
-    }
-};
 
 impl Method {
     /// Every method, the default first.
     pub fn all() -> impl ExactSizeIterator<Item = Self> + Clone {
-        TABLE.iter().map(|entry| entry.method)
+        (0..TABLE.len()).map(Self)
+    }
+
+    /// Gauss collocation of this many stages, if there is such a method.
+    ///
+    /// ```
+    /// use sim::Method;
+    ///
+    /// assert_eq!(Method::gauss(8).map(Method::order), Some(16));
+    /// assert_eq!(Method::gauss(9), None);
+    /// ```
+    pub const fn gauss(stages: u32) -> Option<Self> {
+        let mut i = 0;
+        while i < TABLE.len() {
+            if let Family::Gauss { stages: found } = TABLE[i].family
+                && found == stages
+            {
+                return Some(Self(i));
+            }
+            i += 1;
+        }
+        None
     }
 
     fn entry(self) -> &'static Entry {
-        &TABLE[self as usize]
+        &TABLE[self.0]
     }
 
     /// What it is called on a command line.
@@ -240,18 +166,8 @@ impl Method {
     }
 
     /// What it is, in a line.
-    pub fn description(self) -> String {
-        match self.family() {
-            Family::Variational if self == Self::Lgvi => {
-                "the integrator of Lee, Leok & McClamroch (2009)".to_owned()
-            }
-            Family::Variational => "adjoint of lgvi: it looks at the end of a step".to_owned(),
-            Family::Composition { substeps } => {
-                format!("symmetric composition of lgvi and its adjoint, {substeps} substeps")
-            }
-            Family::Gauss { stages: 1 } => "variational Gauss collocation, 1 stage".to_owned(),
-            Family::Gauss { stages } => format!("variational Gauss collocation, {stages} stages"),
-        }
+    pub fn description(self) -> &'static str {
+        self.entry().description
     }
 
     /// How it makes a step.
@@ -313,21 +229,35 @@ impl Method {
         self.entry().evaluations_per_step
     }
 
-    /// The method for a model in space.
-    pub fn integrator(self, model: ArticulatedBody) -> BoxedIntegrator<Configuration> {
-        integrator!(self, model)
-    }
-
-    /// The method for a model in a plane.
-    pub fn integrator_in_plane(self, model: PlanarBody) -> BoxedIntegrator<PlanarConfiguration> {
-        integrator!(self, model)
+    /// The method for a model, in space or in a plane.
+    pub fn integrator<M: Model>(
+        self,
+        model: M,
+    ) -> BoxedIntegrator<<M as DiscreteLagrangian>::Group> {
+        let Entry { family, order, .. } = *self.entry();
+        match (family, order) {
+            (Family::Variational, _) => Box::new(Variational::with_inertia(model)),
+            (Family::Adjoint, _) => Box::new(Variational::new(Adjoint(model))),
+            (Family::Composition { .. }, 2) => Box::new(Composition::<_, 2>::new(model)),
+            (Family::Composition { .. }, 4) => Box::new(Composition::<_, 4>::new(model)),
+            (Family::Composition { .. }, 6) => Box::new(Composition::<_, 6>::new(model)),
+            (Family::Composition { .. }, _) => Box::new(Composition::<_, 8>::new(model)),
+            (Family::Gauss { stages: 1 }, _) => Box::new(Gauss::<_, 1>::new(model)),
+            (Family::Gauss { stages: 2 }, _) => Box::new(Gauss::<_, 2>::new(model)),
+            (Family::Gauss { stages: 3 }, _) => Box::new(Gauss::<_, 3>::new(model)),
+            (Family::Gauss { stages: 4 }, _) => Box::new(Gauss::<_, 4>::new(model)),
+            (Family::Gauss { stages: 5 }, _) => Box::new(Gauss::<_, 5>::new(model)),
+            (Family::Gauss { stages: 6 }, _) => Box::new(Gauss::<_, 6>::new(model)),
+            (Family::Gauss { stages: 7 }, _) => Box::new(Gauss::<_, 7>::new(model)),
+            (Family::Gauss { .. }, _) => Box::new(Gauss::<_, 8>::new(model)),
+        }
     }
 
     /// The method for the smallest exact model of a scene: it steps that, and gives the scene's own states.
     pub fn integrator_of_smallest(self, smallest: &Smallest) -> BoxedIntegrator<Configuration> {
         smallest.integrator(
             |model| self.integrator(model),
-            |model| self.integrator_in_plane(model),
+            |model| self.integrator(model),
         )
     }
 }
@@ -336,6 +266,18 @@ impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }
+}
+
+/// No method has this name.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("no method is called `{name}`; expected one of {}", names())]
+pub struct UnknownMethod {
+    /// What was asked for.
+    pub name: String,
+}
+
+fn names() -> String {
+    TABLE.map(|entry| entry.name).join(", ")
 }
 
 impl FromStr for Method {
@@ -348,5 +290,99 @@ impl FromStr for Method {
         Self::all()
             .find(|method| method.name() == name)
             .ok_or_else(unknown)
+    }
+}
+
+impl Serialize for Method {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Object {
+            name: &'static str,
+            description: &'static str,
+            order: u32,
+            symmetric: bool,
+            symplectic: bool,
+            conserved: &'static [Conserved],
+            default_step_seconds: f64,
+            evaluations_per_step: u32,
+            evaluation: Evaluation,
+            substeps: Option<u32>,
+            stages: Option<u32>,
+        }
+        let (substeps, stages) = match self.family() {
+            Family::Composition { substeps } => (Some(substeps), None),
+            Family::Gauss { stages } => (None, Some(stages)),
+            _ => (None, None),
+        };
+        let object = Object {
+            name: self.name(),
+            description: self.description(),
+            order: self.order(),
+            symmetric: self.is_symmetric(),
+            symplectic: self.is_symplectic(),
+            conserved: self.conserved(),
+            default_step_seconds: self.default_step(),
+            evaluations_per_step: self.evaluations_per_step(),
+            evaluation: self.evaluation(),
+            substeps,
+            stages,
+        };
+        object.serialize(serializer)
+    }
+}
+
+/// What a step evaluates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Evaluation {
+    /// The two derivatives of the discrete Lagrangian, (29)–(33).
+    DiscreteDerivatives,
+    /// The velocity and the force of the continuous model, (8)–(20).
+    VelocityAndForce,
+}
+
+impl fmt::Display for Evaluation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::DiscreteDerivatives => "derivatives of the discrete Lagrangian",
+            Self::VelocityAndForce => "velocity and force of the continuous model",
+        })
+    }
+}
+
+impl Serialize for Evaluation {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// What a method keeps beside its order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Conserved {
+    /// The configuration stays on its group.
+    Group,
+    /// The symplectic form; the energy's error stays bounded with it.
+    SymplecticForm,
+    /// The momentum maps of the symmetries: linear and angular momentum, to rounding.
+    MomentumMaps,
+    /// A step of `-h` undoes a step of `h`.
+    Reversibility,
+}
+
+impl fmt::Display for Conserved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Group => "group",
+            Self::SymplecticForm => "symplectic form",
+            Self::MomentumMaps => "momentum maps",
+            Self::Reversibility => "reversibility",
+        })
+    }
+}
+
+impl Serialize for Conserved {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }

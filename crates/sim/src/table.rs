@@ -2,67 +2,169 @@
 
 use std::io::{self, Write};
 
-use articulated_fluid::{ArticulatedBody, Configuration, Scene};
-use dvi::State;
-use study::watch::{Sample, attitudes};
+use articulated_fluid::Scene;
+use lie::SO3;
 
-/// The columns as text for help; [`Table`] writes them.
-pub const COLUMNS: &str = "  t                        time, s
-  x,y,z                    mass centre of the first body in the reference frame, m
-  NAME.qw,.qx,.qy,.qz      attitude of the body NAME, body to reference frame: a unit quaternion,
-                           its sign continuous from row to row
-  NAME.wx,.wy,.wz          angular velocity of the body NAME in its own frame, rad/s
-  energy                   of bodies and fluid, kinetic and potential, J
-  px,py,pz                 linear momentum from the velocities, in the reference frame, kg m/s
-  lx,ly,lz                 angular momentum about the origin in the reference frame, kg m^2/s
-  orthogonality            largest ||I - R^T R||_F over the bodies";
+use crate::frame::Frame;
 
-/// Writes rows to `out`.
+/// Columns that belong together.
+///
+/// More of them are one more entry of [`COLUMNS`]; the table and what is told of it follow.
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
+    /// A name for each number; of a body's, what follows the body's name and a dot.
+    pub names: &'static [&'static str],
+    /// What they are, with the unit.
+    pub meaning: &'static str,
+    read: Read,
+}
+
+/// How numbers are read of a frame, into where those of the row before still stand.
+#[derive(Clone, Copy, Debug)]
+enum Read {
+    Whole(fn(&Frame, &mut [f64])),
+    /// Of the body with this number; columns of bodies side by side are written body by body.
+    Body(fn(&Frame, usize, &mut [f64])),
+}
+
+const fn whole(
+    names: &'static [&'static str],
+    meaning: &'static str,
+    read: fn(&Frame, &mut [f64]),
+) -> Column {
+    let read = Read::Whole(read);
+    Column {
+        names,
+        meaning,
+        read,
+    }
+}
+
+const fn body(
+    names: &'static [&'static str],
+    meaning: &'static str,
+    read: fn(&Frame, usize, &mut [f64]),
+) -> Column {
+    let read = Read::Body(read);
+    Column {
+        names,
+        meaning,
+        read,
+    }
+}
+
+/// The columns of a [`Table`], in its order.
+#[rustfmt::skip]
+pub const COLUMNS: &[Column] = &[
+    whole(&["t"], "time, s", |frame, to| to.fill(frame.t())),
+    whole(&["x", "y", "z"], "mass centre of the first body in the reference frame, m", |frame, to| {
+        to.copy_from_slice(&frame.position().0);
+    }),
+    body(&["qw", "qx", "qy", "qz"], "unit quaternion from body to reference frame, its sign continuous", |frame, i, to| {
+        let q = frame.attitudes().nth(i).map_or([0.0; 4], SO3::to_quaternion);
+        to.copy_from_slice(&nearer(q, to));
+    }),
+    body(&["wx", "wy", "wz"], "angular velocity of the body in its own frame, rad/s", |frame, i, to| {
+        to.copy_from_slice(&frame.rates().nth(i).map_or([0.0; 3], |rate| rate.0));
+    }),
+    whole(&["energy"], "of bodies and fluid, kinetic and potential, J", |frame, to| to.fill(frame.sample.energy)),
+    whole(&["px", "py", "pz"], "linear momentum from the velocities, in the reference frame, kg m/s", |frame, to| {
+        to.copy_from_slice(&frame.sample.linear.0);
+    }),
+    whole(&["lx", "ly", "lz"], "angular momentum about the origin in the reference frame, kg m^2/s", |frame, to| {
+        to.copy_from_slice(&frame.sample.angular.0);
+    }),
+    whole(&["orthogonality"], "largest ||I - R^T R||_F over the bodies", |frame, to| to.fill(frame.sample.orthogonality)),
+];
+
+/// The one of `q` and `-q`, which are the same attitude, that is nearer to `last`.
+fn nearer(q: [f64; 4], last: &[f64]) -> [f64; 4] {
+    let dot: f64 = q.iter().zip(last).map(|(a, b)| a * b).sum();
+    if dot < 0.0 { q.map(|x| -x) } else { q }
+}
+
+impl Column {
+    /// The names in short, as `x,y,z` and `NAME.qw,.qx,.qy,.qz`.
+    pub fn label(&self) -> String {
+        match self.read {
+            Read::Whole(_) => self.names.join(","),
+            Read::Body(_) => format!("NAME.{}", self.names.join(",.")),
+        }
+    }
+
+    fn is_of_bodies(&self) -> bool {
+        matches!(self.read, Read::Body(_))
+    }
+}
+
+/// The columns in the order of the table, those of bodies with the number of the body.
+fn columns(bodies: usize) -> impl Iterator<Item = (&'static Column, usize)> {
+    let alike = |a: &Column, b: &Column| a.is_of_bodies() == b.is_of_bodies();
+    COLUMNS.chunk_by(alike).flat_map(move |group| {
+        let times = if group[0].is_of_bodies() { bodies } else { 1 };
+        (0..times).flat_map(move |i| group.iter().map(move |column| (column, i)))
+    })
+}
+
+/// Writes a row for each frame, with all digits, under a header.
 pub struct Table<W> {
     out: W,
+    bodies: usize,
+    row: Vec<f64>,
     line: String,
-    attitudes: Vec<[f64; 4]>,
 }
 
 impl<W: Write> Table<W> {
-    /// Writes the header for the bodies of `scene`.
+    /// Writes the header for the bodies of a scene.
+    ///
+    /// # Errors
+    /// Those of `out`.
     pub fn new(mut out: W, scene: &Scene) -> io::Result<Self> {
-        write!(out, "t,x,y,z")?;
-        for body in &scene.bodies {
-            for column in ["qw", "qx", "qy", "qz", "wx", "wy", "wz"] {
-                write!(out, ",{}.{column}", body.name)?;
-            }
-        }
-        writeln!(out, ",energy,px,py,pz,lx,ly,lz,orthogonality")?;
+        let names = columns(scene.bodies.len()).flat_map(|(column, i)| {
+            let name = move |name: &&str| match column.read {
+                Read::Whole(_) => (*name).to_owned(),
+                Read::Body(_) => format!("{}.{name}", scene.bodies[i].name),
+            };
+            column.names.iter().map(name)
+        });
+        let names: Vec<_> = names.collect();
+        writeln!(out, "{}", names.join(","))?;
         Ok(Self {
             out,
+            bodies: scene.bodies.len(),
+            row: vec![0.0; names.len()],
             line: String::new(),
-            attitudes: vec![[0.0; 4]; scene.bodies.len()],
         })
     }
 
-    /// Writes the row of a state and its sample.
-    pub fn row(
-        &mut self,
-        model: &ArticulatedBody,
-        state: &State<Configuration>,
-        sample: &Sample,
-    ) -> io::Result<()> {
-        let velocity = model.velocity(state).map_err(io::Error::other)?;
-        let rates = core::iter::once(&velocity.0).chain(velocity.2.iter());
-        self.line.clear();
-        push(&mut self.line, &[state.t]);
-        push(&mut self.line, &state.g.1.vec3().0);
-        let bodies = attitudes(&state.g).zip(rates).zip(&mut self.attitudes);
-        for ((attitude, rate), last) in bodies {
-            *last = nearer(attitude.to_quaternion(), last);
-            push(&mut self.line, last);
-            push(&mut self.line, &rate.vec3().0);
+    /// Writes the row of a frame.
+    ///
+    /// # Errors
+    /// Those of `out`; [`InvalidInput`](io::ErrorKind::InvalidInput) of a frame with another number of bodies.
+    pub fn row(&mut self, frame: &Frame) -> io::Result<()> {
+        if frame.bodies() != self.bodies {
+            return Err(io::ErrorKind::InvalidInput.into());
         }
-        push(&mut self.line, &[sample.energy]);
-        push(&mut self.line, &sample.linear.0);
-        push(&mut self.line, &sample.angular.0);
-        push(&mut self.line, &[sample.orthogonality]);
+        let mut rest = &mut self.row[..];
+        for (column, i) in columns(self.bodies) {
+            let (to, after) = rest.split_at_mut(column.names.len());
+            match column.read {
+                Read::Whole(read) => read(frame, to),
+                Read::Body(read) => read(frame, i, to),
+            }
+            rest = after;
+        }
+        self.write()
+    }
+
+    fn write(&mut self) -> io::Result<()> {
+        use core::fmt::Write;
+        self.line.clear();
+        for (k, number) in self.row.iter().enumerate() {
+            let comma = if k == 0 { "" } else { "," };
+            // A string takes what is written to it.
+            let _ = write!(self.line, "{comma}{number:.16e}");
+        }
         self.line.push('\n');
         self.out.write_all(self.line.as_bytes())
     }
@@ -71,20 +173,4 @@ impl<W: Write> Table<W> {
     pub fn into_inner(self) -> W {
         self.out
     }
-}
-
-/// Appends numbers with all their digits.
-fn push(line: &mut String, numbers: &[f64]) {
-    for number in numbers {
-        if !line.is_empty() {
-            line.push(',');
-        }
-        line.push_str(&format!("{number:.16e}"));
-    }
-}
-
-/// The one of `q` and `-q`, which are the same attitude, that is nearer to `last`.
-fn nearer(q: [f64; 4], last: &[f64; 4]) -> [f64; 4] {
-    let dot: f64 = q.iter().zip(last).map(|(a, b)| a * b).sum();
-    if dot < 0.0 { q.map(|x| -x) } else { q }
 }

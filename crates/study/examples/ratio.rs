@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 
 use articulated_fluid::{Configuration, Scene};
 use dvi::{Gauss, Integrator, State};
+use sim::Method;
 use study::baseline::Tolerance;
 use study::contender::{Contender, Problem, Setting};
 use study::dop853;
-use study::methods::Method;
 use study::work_precision::Errors;
 
 /// Errors that are asked for, rad.
@@ -93,7 +93,7 @@ fn apart(problem: &Problem, states: &States, exact: &States) -> Result<f64, Erro
 
 fn explicit(problem: &Problem) -> Result<Vec<Point>, Error> {
     let parts = (REFERENCE_RATE * problem.until).round() as u64;
-    let gauss = Contender::Structure(Method::Gauss8);
+    let gauss = Contender::Structure(Method::gauss(8).expect("one of eight stages"));
     let exact = gauss.sample(problem, Setting::Steps(parts), parts)?;
     let error = |tolerance| {
         let states = Contender::Dp853.sample(problem, Setting::Tolerance(tolerance), parts)?;

@@ -24,7 +24,7 @@ use thiserror::Error;
 pub use failure::Failure;
 pub use problem::{Cost, Problem, Setting};
 
-use crate::methods::Method;
+use sim::Method;
 
 /// A way to integrate the continuous or the discrete model of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -121,7 +121,7 @@ impl Contender {
     /// What it is, in a line.
     pub fn description(self) -> String {
         match self {
-            Self::Structure(method) => return method.description(),
+            Self::Structure(method) => return method.description().to_owned(),
             Self::Pilot => {
                 "variational Gauss collocation, its stages and step chosen by a pilot run"
             }
@@ -162,7 +162,7 @@ impl Contender {
 
     /// What it is made of.
     pub fn kind(self) -> Kind {
-        use crate::methods::Family;
+        use sim::method::Family;
         match self {
             Self::Structure(method) => match method.family() {
                 Family::Gauss { .. } => Kind::Gauss,

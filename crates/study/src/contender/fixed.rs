@@ -2,11 +2,11 @@
 
 use articulated_fluid::Configuration;
 use dvi::State;
+use sim::BoxedIntegrator;
 
 use super::problem::timed;
 use super::{Contender, Cost, Failure, Problem, Setting};
 use crate::explicit::{ClassicalRungeKutta, GroupRungeKutta, STAGES, Scheme};
-use crate::methods::BoxedIntegrator;
 
 impl Contender {
     /// The integrator of a contender that takes steps of one size; `None` of an adaptive one.

@@ -4,9 +4,9 @@ use core::fmt;
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::{State, StepError};
+use sim::{Sample, Watch};
 
 use crate::contender::Failure;
-use crate::watch::{Sample, Watch};
 
 /// The energy may stray by this part of the largest kinetic energy so far, that of the motion's first half radian included; a run that
 /// strays further ends there.

@@ -2,11 +2,11 @@
 
 use articulated_fluid::Configuration;
 use dvi::{Integrator, State};
+use sim::BoxedIntegrator;
 
 use super::outcome::{Class, Outcome, WRONG};
 use super::window::Window;
 use crate::contender::{Contender, Kind, Problem};
-use crate::methods::BoxedIntegrator;
 use crate::work_precision::apart;
 
 /// Continuation begins at this part of the refused step.

@@ -3,9 +3,10 @@
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
 use lie::SO3;
+use sim::{Sample, Watch, attitudes};
 
 use crate::contender::Failure;
-use crate::watch::{Sample, Watch, attitudes};
+
 
 /// The largest errors over a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,20 +2,19 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
+use sim::Method;
 use thiserror::Error;
 
 use super::errors::distance;
 use super::{Errors, Horizon, SAMPLES};
 use crate::baseline::Tolerance;
 use crate::contender::{Contender, Failure, Problem, Setting};
-use crate::methods::Method;
 use crate::on_group::{self, ReferenceError};
-use crate::watch::fastest_rate;
 
 /// Of the reference's steps.
 pub(super) const TOLERANCE: f64 = 1e-13;
 /// The method that must agree with it.
-const CHECK: Contender = Contender::Structure(Method::Gauss8);
+const CHECK: Contender = Contender::Structure(Method::gauss(8).unwrap());
 /// The check's steps are halved at most this often.
 const HALVINGS: u32 = 8;
 
@@ -134,4 +133,11 @@ pub(crate) fn apart(
     b: &State<Configuration>,
 ) -> f64 {
     distance(model, &a.g, &b.g).map_or(f64::INFINITY, |(angle, _)| angle)
+}
+
+/// The largest angular velocity of a body, rad/s; `None` where the state does not fit the model.
+pub(crate) fn fastest_rate(model: &ArticulatedBody, state: &State<Configuration>) -> Option<f64> {
+    let xi = model.velocity(state).ok()?;
+    let rates = core::iter::once(&xi.0).chain(xi.2.iter());
+    Some(rates.map(|omega| omega.vec3().norm()).fold(0.0, f64::max))
 }

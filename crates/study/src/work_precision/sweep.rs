@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use sim::number::three_digits;
+
 use super::{Errors, Reference, SAMPLES, Timing};
 use crate::contender::{Contender, Control, Cost, Failure, Problem, Setting};
 
@@ -194,11 +196,6 @@ impl<'a> Sweep<'a> {
             Setting::Accuracy(accuracy) => Some(Setting::Accuracy(a_tenth(accuracy)?)),
         }
     }
-}
-
-/// For people.
-pub(crate) fn three_digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
 }
 
 /// The next power of ten below, if it is worth trying.
