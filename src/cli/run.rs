@@ -181,7 +181,11 @@ impl<'a> Csv<'a> {
         if path == Path::new("-") {
             return Err(CliError::OutputIsDash);
         }
-        if args.scene.as_ref().is_some_and(|scene| is_same(scene, path)) {
+        if args
+            .scene
+            .as_ref()
+            .is_some_and(|scene| is_same(scene, path))
+        {
             return Err(CliError::OutputIsScene(path.to_owned()));
         }
         let table = AtomicFile::create(path).and_then(|file| Ok(Table::new(file, &loaded.scene)?));

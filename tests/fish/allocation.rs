@@ -3,8 +3,8 @@
 use allocation_counter::measure;
 use articulated_fluid::{OnSe3, Scene};
 use dvi::{Composition, Gauss, Integrator, State, Variational};
-use lgvi::{articulated_fluid, dvi};
 use lgvi::sim::Method;
+use lgvi::{articulated_fluid, dvi};
 
 use crate::common::paper;
 

@@ -150,7 +150,9 @@ impl Simulation {
         };
         let due = self.plan.schedule.due(self.clock(), number);
         let stop = due.steps.min(self.steps() + CHUNK);
-        self.run.advance(stop).map_err(|error| self.refused(error))?;
+        self.run
+            .advance(stop)
+            .map_err(|error| self.refused(error))?;
         if stop < due.steps {
             self.next = Some(number);
             return Ok(None);

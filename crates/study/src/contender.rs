@@ -11,6 +11,7 @@
 //! ```
 
 mod adaptive;
+mod describe;
 mod failure;
 mod fixed;
 mod piloted;

@@ -101,7 +101,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let written = files.finish(&figure.render()?, &csv(&curves, args.until))?;
     let report = Report::new(&loaded, &problem, &reference, &curves, &written);
     print::stdout(&match args.json {
-        true => print::json(&json::Object::from(&report))?,
+        true => print::json(&json::Object::new(&report))?,
         false => report.text(),
     })
 }

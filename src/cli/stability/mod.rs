@@ -116,7 +116,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
         files: &written,
     };
     print::stdout(&match args.json {
-        true => print::json(&json::Object::from(&report))?,
+        true => print::json(&json::Object::new(&report))?,
         false => report.text(),
     })
 }

@@ -2,6 +2,7 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
+use serde::Serialize;
 use sim::Method;
 use thiserror::Error;
 
@@ -20,20 +21,25 @@ const HALVINGS: u32 = 8;
 
 /// The motion at the sample times, by an explicit pair of order 8 in charts at a tolerance of 1e-13, checked by an implicit method of
 /// another family, gauss-8.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Reference {
     /// At the $k T / n$, $n$ = [`SAMPLES`].
+    #[serde(skip)]
     pub states: Vec<State<Configuration>>,
     /// The largest angle between the two methods' attitudes, rad: errors below are not known.
+    #[serde(rename = "attitude_uncertainty_radians")]
     pub attitude: f64,
     /// The largest distance between the two methods' mass centres, m.
+    #[serde(rename = "position_uncertainty_metres")]
     pub position: f64,
     /// Steps of the check.
     pub check_steps: u64,
     /// How long a trajectory means anything.
+    #[serde(flatten)]
     pub horizon: Horizon,
     /// The time in which the fastest body turns by a radian, s; at most the run's length.
+    #[serde(skip)]
     pub radian: f64,
 }
 

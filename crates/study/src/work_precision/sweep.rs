@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use serde::Serialize;
 use sim::number::three_digits;
 
 use super::{Errors, Reference, SAMPLES, Timing};
@@ -23,14 +24,16 @@ const LATE: u32 = 10;
 const MOST: usize = 64;
 
 /// What a setting reached, and at what price.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Measured {
     /// With the least time of several runs.
+    #[serde(flatten)]
     pub cost: Cost,
     /// How many.
     pub runs: u32,
     /// The largest over the run.
+    #[serde(flatten)]
     pub errors: Errors,
 }
 

@@ -339,11 +339,7 @@ fn every_method_is_good_or_refuses() {
 #[test]
 fn two_rotors_past_their_fold_are_seen() {
     let problem = load("rotors");
-    for (method, velocity) in [
-        ("lgvi", 0.0),
-        ("lgvi-adjoint", 0.0),
-        ("lgvi-adjoint", 1e3),
-    ] {
+    for (method, velocity) in [("lgvi", 0.0), ("lgvi-adjoint", 0.0), ("lgvi-adjoint", 1e3)] {
         let method: Method = method.parse().unwrap();
         for h in [0.9460645233317553, 0.9601826969832394, 0.9668478186190652] {
             let mut integrator = Contender::Structure(method).integrator(&problem).unwrap();
