@@ -1,6 +1,6 @@
 //! What is seen of a run at one time.
 
-use articulated_fluid::{ArticulatedBody, Configuration};
+use articulated_fluid::{ArticulatedBody, Configuration, Conserved};
 use dvi::State;
 use lie::{LieGroup, SO3, Vec3};
 
@@ -18,9 +18,10 @@ pub struct Frame {
 impl Frame {
     /// The frame of a state; `None` where it does not fit the model, or a quantity is not finite.
     pub fn new(model: &ArticulatedBody, state: State<Configuration>) -> Option<Self> {
+        let (velocity, kept) = model.velocity_and_conserved(&state).ok()?;
         Some(Self {
-            velocity: model.velocity(&state).ok()?,
-            sample: Sample::take(model, &state)?,
+            velocity,
+            sample: Sample::new(model, &state, kept),
             state,
         })
     }
@@ -80,13 +81,17 @@ impl Sample {
     /// The sample of a state; `None` where a quantity is not finite.
     pub fn take(model: &ArticulatedBody, state: &State<Configuration>) -> Option<Self> {
         let kept = model.conserved(state).ok()?;
-        Some(Self {
+        Some(Self::new(model, state, kept))
+    }
+
+    fn new(model: &ArticulatedBody, state: &State<Configuration>, kept: Conserved) -> Self {
+        Self {
             t: state.t,
             energy: kept.energy,
             kinetic: kept.kinetic,
             linear: kept.linear,
             angular: kept.angular,
             orthogonality: model.orthogonality_error(&state.g),
-        })
+        }
     }
 }
