@@ -7,17 +7,16 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-use articulated_fluid::{ArticulatedBody, Configuration, Conserved, ModelError, Scene};
-use dvi::{Integrator, State, Variational};
-use lgvi::{articulated_fluid, dvi, lie};
-use lie::Vec3;
+use lgvi::articulated_fluid::Scene;
+use lgvi::lie::Vec3;
+use lgvi::sim::{Choice, Frame, Method, Plan, Schedule, Simulation};
 use study::baseline::{Motion, Pair, Tolerance};
 use study::figure::{Colour, Figure, Line, Panel, Scale, Style};
 
 /// The paper's step, s.
 const STEP: f64 = 1e-3;
 /// Steps between samples.
-const EVERY: u32 = 100;
+const EVERY: u64 = 100;
 /// What general-purpose Runge–Kutta codes take unless told otherwise.
 const TOLERANCE: Tolerance = Tolerance {
     relative: 1e-3,
@@ -32,17 +31,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("expected between 0.1 and 10000 seconds".into());
     }
     let scene = Scene::parse(include_str!("../scenes/fish-chain.toml"), "fish-chain.toml")?;
-    let (model, start) = (scene.model()?, scene.initial_state()?);
-
-    let states = variational(&model, &start, seconds)?;
-    let kept = Trajectory::new("LGVI, h = 1 ms", Colour::Vermillion, &model, &states)?;
-    let states = runge_kutta(&model, &start, seconds)?;
-    let lost = Trajectory::new(
-        "RK 4(5), relative tolerance 1e-3",
-        Colour::SkyBlue,
-        &model,
-        &states,
-    )?;
+    let kept = Trajectory {
+        name: "LGVI, h = 1 ms",
+        colour: Colour::Vermillion,
+        frames: variational(&scene, seconds)?,
+    };
+    let lost = Trajectory {
+        name: "RK 4(5), relative tolerance 1e-3",
+        colour: Colour::SkyBlue,
+        frames: runge_kutta(&scene, seconds)?,
+    };
     kept.report();
     lost.report();
 
@@ -62,35 +60,31 @@ fn samples(seconds: f64) -> u32 {
 }
 
 /// Hamilton's form of the variational integrator, (39)–(46), at a fixed step.
-fn variational(
-    model: &ArticulatedBody,
-    start: &State<Configuration>,
-    seconds: f64,
-) -> Result<Vec<State<Configuration>>, Box<dyn Error>> {
-    let clock = Instant::now();
-    let (mut state, mut states) = (start.clone(), vec![start.clone()]);
-    let mut integrator = Variational::new(model.clone());
-    let samples = samples(seconds);
-    for _ in 0..samples {
-        for _ in 0..EVERY {
-            integrator.step(&mut state, STEP)?;
-        }
-        states.push(state.clone());
-    }
+fn variational(scene: &Scene, seconds: f64) -> Result<Vec<Frame>, Box<dyn Error>> {
+    let plan = Plan {
+        choice: Choice::Method {
+            method: Method::default(),
+            step: Some(STEP),
+        },
+        until: seconds,
+        schedule: Schedule::Steps(EVERY),
+        ..Plan::default()
+    };
+    let mut simulation = Simulation::new(scene, &plan)?;
+    let frames = simulation.by_ref().collect::<Result<_, _>>()?;
+    let report = simulation.report();
     println!(
-        "LGVI: {} steps of {STEP} s in {:.3} s",
-        samples * EVERY,
-        clock.elapsed().as_secs_f64()
+        "LGVI: {} steps of {} s in {:.3} s",
+        report.steps,
+        report.step_seconds,
+        1e-6 * report.time_per_step_us * report.steps as f64
     );
-    Ok(states)
+    Ok(frames)
 }
 
 /// Hamilton's equations (18)–(20) by Dormand–Prince 5(4) on the entries of the rotation matrices.
-fn runge_kutta(
-    model: &ArticulatedBody,
-    start: &State<Configuration>,
-    seconds: f64,
-) -> Result<Vec<State<Configuration>>, Box<dyn Error>> {
+fn runge_kutta(scene: &Scene, seconds: f64) -> Result<Vec<Frame>, Box<dyn Error>> {
+    let (model, start) = (scene.model()?, scene.initial_state()?);
     let clock = Instant::now();
     let samples = samples(seconds);
     let time = |k: u32| STEP * f64::from(EVERY * k);
@@ -103,74 +97,50 @@ fn runge_kutta(
         TOLERANCE.relative,
         clock.elapsed().as_secs_f64()
     );
-    Ok(states)
+    let states = samples.t.iter().zip(&samples.y);
+    let frame = |(t, y): (&f64, &Vec<f64>)| Frame::new(&model, raw::unpack(*t, y)?);
+    Ok(states.filter_map(frame).collect())
 }
 
-/// What is drawn of a method's states.
+/// What is drawn of a method.
 struct Trajectory {
     name: &'static str,
     colour: Colour,
-    t: Vec<f64>,
-    /// $\Omega_0, \dot x, \Omega_1, \Omega_2$ of each state.
-    velocities: Vec<[Vec3; 4]>,
-    conserved: Vec<Conserved>,
-    orthogonality: Vec<f64>,
+    frames: Vec<Frame>,
 }
 
 impl Trajectory {
-    fn new(
-        name: &'static str,
-        colour: Colour,
-        model: &ArticulatedBody,
-        states: &[State<Configuration>],
-    ) -> Result<Self, ModelError> {
-        let velocities = |state| {
-            let (omega, dx) = model.velocity(state)?;
-            let [head, one, two] = [0, 1, 2].map(|i| omega[i].vec3());
-            Ok([head, dx[0].vec3(), one, two])
-        };
-        Ok(Self {
-            name,
-            colour,
-            t: states.iter().map(|state| state.t).collect(),
-            velocities: states.iter().map(velocities).collect::<Result<_, _>>()?,
-            conserved: states
-                .iter()
-                .map(|s| model.conserved(s))
-                .collect::<Result<_, _>>()?,
-            orthogonality: states
-                .iter()
-                .map(|s| model.orthogonality_error(&s.g))
-                .collect(),
-        })
+    /// How far a momentum is from its start.
+    fn change(&self, frame: &Frame, momentum: fn(&Frame) -> Vec3) -> f64 {
+        (momentum(frame) - momentum(&self.frames[0])).norm()
     }
 
-    fn linear_change(&self, k: usize) -> f64 {
-        (self.conserved[k].linear - self.conserved[0].linear).norm()
+    fn linear_change(&self, frame: &Frame) -> f64 {
+        self.change(frame, |frame| frame.sample.linear)
     }
 
-    fn angular_change(&self, k: usize) -> f64 {
-        (self.conserved[k].angular - self.conserved[0].angular).norm()
+    fn angular_change(&self, frame: &Frame) -> f64 {
+        self.change(frame, |frame| frame.sample.angular)
     }
 
-    fn energy_error(&self, k: usize) -> f64 {
-        (self.conserved[k].energy / self.conserved[0].energy - 1.0).abs()
+    fn energy_error(&self, frame: &Frame) -> f64 {
+        (frame.sample.energy / self.frames[0].sample.energy - 1.0).abs()
     }
 
     fn report(&self) {
-        let worst = |f: &dyn Fn(usize) -> f64| (0..self.t.len()).map(f).fold(0.0, f64::max);
+        let worst = |f: &dyn Fn(&Frame) -> f64| self.frames.iter().map(f).fold(0.0, f64::max);
         println!(
             "{:32} energy error {:.1e}, linear momentum {:.1e} kg m/s, angular {:.1e} kg m^2/s, orthogonality {:.1e}",
             self.name,
-            worst(&|k| self.energy_error(k)),
-            worst(&|k| self.linear_change(k)),
-            worst(&|k| self.angular_change(k)),
-            worst(&|k| self.orthogonality[k]),
+            worst(&|frame| self.energy_error(frame)),
+            worst(&|frame| self.linear_change(frame)),
+            worst(&|frame| self.angular_change(frame)),
+            worst(&|frame| frame.sample.orthogonality),
         );
     }
 
-    fn line(&self, value: impl Fn(usize) -> f64) -> Line {
-        let points = self.t.iter().enumerate().map(|(k, t)| (*t, value(k)));
+    fn line(&self, value: impl Fn(&Frame) -> f64) -> Line {
+        let points = self.frames.iter().map(|frame| (frame.t(), value(frame)));
         Line {
             label: self.name.into(),
             colour: self.colour,
@@ -191,15 +161,15 @@ fn figure(lost: &Trajectory, kept: &Trajectory) -> Figure {
         lines: [lines(lost), lines(kept)].concat(),
         ..Panel::default()
     };
-    let velocity = |title, y, which: usize| {
+    let velocity = |title, y, of: fn(&Frame) -> Vec3| {
         panel(title, y, Scale::Linear, &|method| {
-            let component = |i| method.line(|k| method.velocities[k][which][i]);
+            let component = |i| method.line(|frame| of(frame)[i]);
             [0, 1, 2].map(component).to_vec()
         })
     };
-    let constant = |title, y, scale, value: &dyn Fn(&Trajectory, usize) -> f64| {
+    let constant = |title, y, scale, value: &dyn Fn(&Trajectory, &Frame) -> f64| {
         panel(title, y, scale, &|method| {
-            vec![method.line(|k| value(method, k))]
+            vec![method.line(|frame| value(method, frame))]
         })
     };
     let (linear, log) = (Scale::Linear, Scale::Log);
@@ -207,27 +177,31 @@ fn figure(lost: &Trajectory, kept: &Trajectory) -> Figure {
         title: "Three ellipsoids on ball joints in a perfect fluid".into(),
         columns: 2,
         panels: vec![
-            velocity("(a) angular velocity of the head, Ω₀", "rad/s", 0),
-            constant("(b) total energy", "J", linear, &|m, k| {
-                m.conserved[k].energy
+            velocity("(a) angular velocity of the head, Ω₀", "rad/s", |f| {
+                f.velocity.0.vec3()
             }),
-            velocity("(c) angular velocity of tail 1, Ω₁", "rad/s", 2),
+            constant("(b) total energy", "J", linear, &|_, f| f.sample.energy),
+            velocity("(c) angular velocity of tail 1, Ω₁", "rad/s", |f| {
+                f.velocity.2[0].vec3()
+            }),
             constant(
                 "(d) change of the linear momentum",
                 "kg m/s",
                 log,
                 &Trajectory::linear_change,
             ),
-            velocity("(e) angular velocity of tail 2, Ω₂", "rad/s", 3),
+            velocity("(e) angular velocity of tail 2, Ω₂", "rad/s", |f| {
+                f.velocity.2[1].vec3()
+            }),
             constant(
                 "(f) change of the angular momentum",
                 "kg m²/s",
                 log,
                 &Trajectory::angular_change,
             ),
-            velocity("(g) velocity of the head", "m/s", 1),
-            constant("(h) orthogonality, ‖I − RᵀR‖", "", log, &|m, k| {
-                m.orthogonality[k]
+            velocity("(g) velocity of the head", "m/s", |f| f.velocity.1.vec3()),
+            constant("(h) orthogonality, ‖I − RᵀR‖", "", log, &|_, f| {
+                f.sample.orthogonality
             }),
         ],
         ..Figure::default()

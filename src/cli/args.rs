@@ -1,9 +1,7 @@
 //! Values of options.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use study::contender::{Contender, Control, UnknownContender};
-use study::methods::{Method, UnknownMethod};
-use study::stability::{Parameter, UnknownParameter};
+use sim::{Method, UnknownMethod};
 use thiserror::Error;
 
 /// Why a value was refused.
@@ -15,6 +13,7 @@ pub enum ValueError {
     Accuracy,
     #[error("expected a whole number >= 1")]
     Count,
+    #[cfg(feature = "chart")]
     #[error("expected a finite number > 0")]
     Multiple,
 }
@@ -31,11 +30,6 @@ pub fn accuracy(text: &str) -> Result<f64, ValueError> {
     seconds(text).map_err(|_| ValueError::Accuracy)
 }
 
-/// So many times: finite and positive.
-pub fn multiple(text: &str) -> Result<f64, ValueError> {
-    seconds(text).map_err(|_| ValueError::Multiple)
-}
-
 /// How many: at least one.
 pub fn count(text: &str) -> Result<u64, ValueError> {
     let value = text.parse().map_err(|_| ValueError::Count)?;
@@ -50,31 +44,4 @@ pub fn method() -> impl TypedValueParser<Value = Method> {
     };
     PossibleValuesParser::new(Method::all().map(value))
         .try_map(|name| name.parse::<Method>() as Result<_, UnknownMethod>)
-}
-
-/// A method or a baseline by its name; help and errors tell them all.
-pub fn contender() -> impl TypedValueParser<Value = Contender> {
-    contenders(Contender::all())
-}
-
-/// The same of those that take steps of one size.
-pub fn stepper() -> impl TypedValueParser<Value = Contender> {
-    contenders(Contender::all().filter(|contender| contender.control() == Control::Step))
-}
-
-fn contenders(all: impl Iterator<Item = Contender>) -> impl TypedValueParser<Value = Contender> {
-    let value = |contender: Contender| {
-        let help = format!("order {}: {}", contender.order(), contender.description());
-        PossibleValue::new(contender.name()).help(help)
-    };
-    PossibleValuesParser::new(all.map(value))
-        .try_map(|name| name.parse::<Contender>() as Result<_, UnknownContender>)
-}
-
-/// What of a scene is varied, by its name; help and errors tell all there is.
-pub fn parameter() -> impl TypedValueParser<Value = Parameter> {
-    let value =
-        |parameter: Parameter| PossibleValue::new(parameter.name()).help(parameter.description());
-    PossibleValuesParser::new(Parameter::all().map(value))
-        .try_map(|name| name.parse::<Parameter>() as Result<_, UnknownParameter>)
 }

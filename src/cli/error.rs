@@ -1,19 +1,15 @@
 //! What can stop a command, and the exit code that says so.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use articulated_fluid::{ModelError, SceneError};
-use dvi::{PilotError, StepError};
-use study::figure::FigureError;
-use study::stability::ParameterError;
-use study::work_precision::UnknownReference;
+use sim::SimError;
+use sim::file::FileError;
+#[cfg(feature = "chart")]
+use study::{figure::FigureError, stability::ParameterError, work_precision::UnknownReference};
 use thiserror::Error;
-
-use super::clock::TooManySteps;
-use super::output::OutputError;
-use super::schedule::TooManySamples;
 
 /// The exit code of a run or a write that failed.
 const FAILURE: u8 = 1;
@@ -29,10 +25,8 @@ pub enum CliError {
     Scene(#[from] SceneError),
     #[error("{file}: {source}")]
     Model { file: String, source: ModelError },
-    #[error(transparent)]
-    TooManySteps(#[from] TooManySteps),
-    #[error(transparent)]
-    TooManySamples(#[from] TooManySamples),
+    #[error("{}{}{}", option(.0), .0, advice(.0))]
+    Sim(#[from] SimError),
     #[error("--out {} is the scene itself; give what is written another name", .0.display())]
     OutputIsScene(PathBuf),
     #[error(
@@ -40,23 +34,19 @@ pub enum CliError {
     )]
     OutputIsDash,
     #[error("--out {}: {source}", path.display())]
-    Output { path: PathBuf, source: OutputError },
-    #[error(transparent)]
-    Step(#[from] StepError),
-    #[error("--accuracy: {0}")]
-    Pilot(#[from] PilotError),
-    #[error(
-        "at t = {t} s the energy or a momentum is too large for a number; check the scene's velocities and inertia"
-    )]
-    NotFinite { t: f64 },
+    Output { path: PathBuf, source: FileError },
     #[error("interrupted at t = {t} s; nothing was written")]
     Interrupted { t: f64, signal: usize },
+    #[cfg(feature = "chart")]
     #[error("interrupted; nothing was written")]
     Stopped { signal: usize },
+    #[cfg(feature = "chart")]
     #[error(transparent)]
     Reference(#[from] UnknownReference),
+    #[cfg(feature = "chart")]
     #[error("--parameter: {0}")]
     Parameter(#[from] ParameterError),
+    #[cfg(feature = "chart")]
     #[error(transparent)]
     Figure(#[from] FigureError),
     #[error("signals cannot be handled: {0}")]
@@ -65,21 +55,50 @@ pub enum CliError {
     Stdout(#[source] io::Error),
 }
 
+/// The option that an error is of.
+fn option(error: &SimError) -> &'static str {
+    match error {
+        SimError::Pilot(_) => "--accuracy: ",
+        _ => "",
+    }
+}
+
+/// The options that help.
+fn advice(error: &SimError) -> &'static str {
+    match error {
+        SimError::TooManySteps { .. } => "; take a longer --step or a shorter --until",
+        SimError::TooManySamples { .. } => "; take a longer --every-seconds or a shorter --until",
+        _ => "",
+    }
+}
+
 impl CliError {
+    /// What is wrong with the file that is to be written.
+    pub fn output(path: &Path, source: FileError) -> Self {
+        let path = path.to_owned();
+        Self::Output { path, source }
+    }
+
     /// The exit code that tells this error's kind.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Scene(_)
-            | Self::Model { .. }
-            | Self::TooManySteps(_)
-            | Self::TooManySamples(_)
-            | Self::Parameter(_)
-            | Self::OutputIsScene(_)
-            | Self::OutputIsDash => USAGE,
-            Self::Interrupted { signal, .. } | Self::Stopped { signal } => {
-                u8::try_from(SIGNALLED + signal).unwrap_or(FAILURE)
+            Self::Scene(_) | Self::Model { .. } | Self::OutputIsScene(_) | Self::OutputIsDash => {
+                USAGE
             }
+            Self::Sim(error) => match error {
+                SimError::Step { .. } | SimError::NotFinite { .. } | SimError::Pilot(_) => FAILURE,
+                _ => USAGE,
+            },
+            #[cfg(feature = "chart")]
+            Self::Parameter(_) => USAGE,
+            Self::Interrupted { signal, .. } => signalled(*signal),
+            #[cfg(feature = "chart")]
+            Self::Stopped { signal } => signalled(*signal),
             _ => FAILURE,
         })
     }
+}
+
+fn signalled(signal: usize) -> u8 {
+    u8::try_from(SIGNALLED + signal).unwrap_or(FAILURE)
 }

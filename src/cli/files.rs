@@ -3,13 +3,13 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use sim::file::{AtomicFile, FileError, is_same};
 use study::figure::Rendered;
 
 use super::error::CliError;
-use super::output::{Output, OutputError, same};
 
 /// Files in the making, in the order of [`ENDINGS`].
-pub struct Files(Vec<(PathBuf, Output)>);
+pub struct Files(Vec<(PathBuf, AtomicFile)>);
 
 const ENDINGS: [&str; 3] = ["svg", "png", "csv"];
 
@@ -22,12 +22,12 @@ impl Files {
         let create = |ending| {
             let path = with_ending(stem, ending).ok_or_else(|| CliError::Output {
                 path: stem.to_owned(),
-                source: OutputError::Directory,
+                source: FileError::Directory,
             })?;
-            if scene.is_some_and(|scene| same(scene, &path)) {
+            if scene.is_some_and(|scene| is_same(scene, &path)) {
                 return Err(CliError::OutputIsScene(path));
             }
-            match Output::create(&path) {
+            match AtomicFile::create(&path) {
                 Ok(output) => Ok((path, output)),
                 Err(source) => Err(CliError::Output { path, source }),
             }
@@ -39,7 +39,7 @@ impl Files {
     /// Writes all of them, and only then puts them in their places.
     pub fn finish(mut self, drawn: &Rendered, table: &str) -> Result<Vec<PathBuf>, CliError> {
         let contents = [drawn.svg.as_bytes(), &drawn.png, table.as_bytes()];
-        let refused = |path: &Path, source: OutputError| CliError::Output {
+        let refused = |path: &Path, source: FileError| CliError::Output {
             path: path.to_owned(),
             source,
         };
@@ -47,7 +47,7 @@ impl Files {
             let written = output.write_all(content).and_then(|()| output.flush());
             written.map_err(|error| refused(path, error.into()))?;
         }
-        let finish = |(path, output): (PathBuf, Output)| match output.finish() {
+        let finish = |(path, output): (PathBuf, AtomicFile)| match output.finish() {
             Ok(()) => Ok(path),
             Err(source) => Err(refused(&path, source)),
         };

@@ -7,8 +7,6 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use super::error::CliError;
-
 /// Remembers that the user wants the command to end.
 pub struct Interrupt {
     signal: Arc<AtomicUsize>,
@@ -35,9 +33,10 @@ impl Interrupt {
     }
 
     /// An error where a signal came.
-    pub fn heed(&self) -> Result<(), CliError> {
+    #[cfg(feature = "chart")]
+    pub fn heed(&self) -> Result<(), super::error::CliError> {
         match self.signal() {
-            Some(signal) => Err(CliError::Stopped { signal }),
+            Some(signal) => Err(super::error::CliError::Stopped { signal }),
             None => Ok(()),
         }
     }

@@ -1,10 +1,11 @@
 //! `lgvi methods`: the integrators that `lgvi run` offers.
 
-use serde::Serialize;
-use study::methods::{Evaluation, Family, Method};
+use sim::Method;
+use sim::method::Evaluation;
+use sim::number::decimal;
 
 use super::error::CliError;
-use super::print::{self, decimal};
+use super::print;
 
 /// List the integrators: order, symmetry, default step, cost.
 ///
@@ -34,50 +35,10 @@ evaluations   in a default step there, about; Newton's matrices come on top, and
 All of them keep the group, the symplectic form and the momentum maps; the symmetric ones reversibility too.
 ";
 
-/// A method as JSON; units are in the names.
-#[derive(Serialize)]
-struct Object {
-    name: &'static str,
-    description: String,
-    order: u32,
-    symmetric: bool,
-    symplectic: bool,
-    conserved: Vec<String>,
-    default_step_seconds: f64,
-    /// On the built-in scene, about.
-    evaluations_per_step: u32,
-    evaluation: String,
-    substeps: Option<u32>,
-    stages: Option<u32>,
-}
-
-impl From<Method> for Object {
-    fn from(method: Method) -> Self {
-        let (substeps, stages) = match method.family() {
-            Family::Composition { substeps } => (Some(substeps), None),
-            Family::Gauss { stages } => (None, Some(stages)),
-            _ => (None, None),
-        };
-        Self {
-            name: method.name(),
-            description: method.description(),
-            order: method.order(),
-            symmetric: method.is_symmetric(),
-            symplectic: method.is_symplectic(),
-            conserved: method.conserved().iter().map(ToString::to_string).collect(),
-            default_step_seconds: method.default_step(),
-            evaluations_per_step: method.evaluations_per_step(),
-            evaluation: method.evaluation().to_string(),
-            substeps,
-            stages,
-        }
-    }
-}
-
 /// Prints the methods.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let text = match args.json {
-        true => print::json(&Method::all().map(Object::from).collect::<Vec<_>>())?,
+        true => print::json(&Method::all().collect::<Vec<_>>())?,
         false => table(),
     };
     print::stdout(&text)
@@ -113,6 +74,6 @@ fn row(method: Method) -> [String; 7] {
         yes(method.is_symplectic()),
         format!("{} s", decimal(method.default_step())),
         format!("{} {kind}", method.evaluations_per_step()),
-        method.description(),
+        method.description().to_owned(),
     ]
 }

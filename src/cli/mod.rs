@@ -1,22 +1,23 @@
 //! The command line: a module for each command, and what they share.
 
 mod args;
+#[cfg(feature = "chart")]
 mod chart;
-mod clock;
+#[cfg(feature = "chart")]
+mod contenders;
 mod error;
+#[cfg(feature = "chart")]
 mod files;
 mod inspect;
 mod interrupt;
 mod methods;
-mod output;
 mod print;
 mod progress;
 mod run;
 mod scene;
-mod schedule;
+#[cfg(feature = "chart")]
 mod stability;
 mod summary;
-mod table;
 
 use std::process::ExitCode;
 
@@ -24,24 +25,34 @@ use clap::{Parser, Subcommand};
 
 use error::CliError;
 
-const AFTER_HELP: &str = "\
+const EXPERIMENTS: &str = if cfg!(feature = "chart") {
+    "
+  lgvi chart boat.toml                  which method is the cheapest for which error
+  lgvi stability boat.toml              in which steps each method fails, and how"
+} else {
+    ""
+};
+
+fn after_help() -> String {
+    format!(
+        "\
 Examples:
   lgvi run                              the built-in scene for 100 s
   lgvi run --until 10 --out fish.csv    10 s of it, with the trajectory
   lgvi run boat.toml --step 0.01        a scene of one's own
-  lgvi run --method gauss-4             another integrator, at its own default step
-  lgvi chart boat.toml                  which method is the cheapest for which error
-  lgvi stability boat.toml              in which steps each method fails, and how
+  lgvi run --method gauss-4             another integrator, at its own default step{EXPERIMENTS}
   lgvi inspect boat.toml                what it is modelled with, and why
   lgvi methods                          the integrators: orders, steps, costs
-  lgvi run --help                       options, CSV columns, keys of a scene";
+  lgvi run --help                       options, CSV columns, keys of a scene"
+    )
+}
 
 /// Lie group variational integrators for rigid bodies on ball joints in a perfect fluid.
 ///
 /// The motion is computed on the group of its configurations, so that rotations stay rotations, momenta stay
 /// constant to rounding, and the energy error stays bounded. A scene is a TOML file; one is built in.
 #[derive(Parser)]
-#[command(name = "lgvi", version, arg_required_else_help = true, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(name = "lgvi", version, arg_required_else_help = true, max_term_width = 100, after_help = after_help())]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -50,7 +61,9 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    #[cfg(feature = "chart")]
     Chart(chart::Args),
+    #[cfg(feature = "chart")]
     Stability(stability::Args),
     Inspect(inspect::Args),
     Methods(methods::Args),
@@ -60,7 +73,9 @@ impl Command {
     fn execute(&self) -> Result<(), CliError> {
         match self {
             Self::Run(args) => run::execute(args),
+            #[cfg(feature = "chart")]
             Self::Chart(args) => chart::execute(args),
+            #[cfg(feature = "chart")]
             Self::Stability(args) => stability::execute(args),
             Self::Inspect(args) => inspect::execute(args),
             Self::Methods(args) => methods::execute(args),

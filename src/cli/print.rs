@@ -31,21 +31,6 @@ pub fn one_line(text: &str) -> String {
     text.replace(char::is_control, " ")
 }
 
-/// A number with all its digits, and with an exponent where there would be many zeros.
-pub fn decimal(value: f64) -> String {
-    let moderate = value == 0.0 || (1e-6..1e12).contains(&value.abs());
-    if moderate {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
-}
-
-/// The same with three digits.
-pub fn three_digits(value: f64) -> String {
-    decimal(format!("{value:.2e}").parse().unwrap_or(value))
-}
-
 /// A value as JSON on a line.
 pub fn json(value: &impl Serialize) -> Result<String, CliError> {
     let text = serde_json::to_string(value).map_err(|error| CliError::Stdout(error.into()))?;

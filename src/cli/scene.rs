@@ -3,23 +3,19 @@
 use std::path::Path;
 
 use articulated_fluid::scene::Overlap;
-use articulated_fluid::{ArticulatedBody, Configuration, ModelError, Scene, Smallest};
-use dvi::State;
+use articulated_fluid::{Scene, Smallest};
 
 use super::error::CliError;
 
 const BUILT_IN: &str = include_str!("../../scenes/fish-chain.toml");
 const BUILT_IN_NAME: &str = "fish-chain.toml (built in)";
 
-/// A scene with its models and the state at t = 0.
+/// A scene, and what it is modelled with.
 pub struct Loaded {
     /// Where it is from.
     pub file: String,
     pub scene: Scene,
-    /// Of the whole, whatever is integrated.
-    pub model: ArticulatedBody,
     pub smallest: Smallest,
-    pub start: State<Configuration>,
     /// Bodies that share a place at the start.
     pub overlaps: Vec<Overlap>,
 }
@@ -33,16 +29,13 @@ pub fn load(path: Option<&Path>) -> Result<Loaded, CliError> {
             BUILT_IN_NAME.to_owned(),
         ),
     };
-    modelled(scene, file.clone()).map_err(|source| CliError::Model { file, source })
-}
-
-fn modelled(scene: Scene, file: String) -> Result<Loaded, ModelError> {
-    Ok(Loaded {
-        model: scene.model()?,
-        smallest: scene.smallest()?,
-        start: scene.initial_state()?,
-        overlaps: scene.overlaps(),
-        file,
-        scene,
-    })
+    match scene.smallest() {
+        Ok(smallest) => Ok(Loaded {
+            smallest,
+            overlaps: scene.overlaps(),
+            file,
+            scene,
+        }),
+        Err(source) => Err(CliError::Model { file, source }),
+    }
 }

@@ -1,52 +1,20 @@
 //! What a run reports at its end, as text and as JSON.
 
+use std::path::Path;
+
 use serde::Serialize;
-use study::methods::Family;
+use sim::method::Family;
+use sim::number::{decimal, scientific};
+use sim::{Report, Simulation};
 
-use super::error::CliError;
-use super::print::{self, decimal, one_line};
+use super::print::one_line;
 
-/// The result of a run; units are in the names, or SI.
-#[derive(Clone, Debug, Serialize)]
-pub struct Summary {
-    pub title: Option<String>,
-    pub scene: String,
-    pub bodies: usize,
-    pub group: String,
-    pub unknowns: usize,
-    /// The reductions of `lgvi inspect` that were taken.
-    pub reductions: Vec<&'static str>,
-    pub method: &'static str,
-    pub method_description: String,
-    pub method_order: u32,
-    pub steps: u64,
-    pub step_seconds: f64,
-    pub step_asked_seconds: f64,
-    pub until_seconds: f64,
-    /// Radians and metres, as the estimate, which compares with shorter steps over the horizon.
-    pub accuracy_asked: Option<f64>,
-    pub accuracy_estimate: Option<f64>,
-    pub accuracy_horizon_seconds: Option<f64>,
-    pub time_per_step_us: f64,
-    pub sample_every_steps: Option<u64>,
-    pub sample_every_seconds: Option<f64>,
-    pub samples: u64,
-    pub energy_initial_joules: f64,
-    pub energy_error_max_joules: f64,
-    /// To the largest kinetic energy, as the slope.
-    pub energy_error_max_relative: Option<f64>,
-    pub energy_slope_per_second: Option<f64>,
-    /// Then the linear momentum deviates from its start plus weight times time, and the angular one about the vertical.
-    pub gravity_acts: bool,
-    pub linear_momentum_deviation_max: f64,
-    pub angular_momentum_deviation_max: f64,
-    pub angular_momentum_deviation_max_relative: Option<f64>,
-    pub orthogonality_error_max: f64,
-    pub solver_residual_max: f64,
-    pub solver_iterations_max: u32,
-    pub solver_iterations_mean: f64,
-    pub evaluation: String,
-    pub evaluations_per_step_mean: f64,
+/// The report of a run, and what only the command knows of it.
+#[derive(Serialize)]
+pub struct Summary<'a> {
+    pub scene: &'a str,
+    #[serde(flatten)]
+    pub report: Report,
     pub csv: Option<String>,
     #[serde(skip)]
     pub family: Family,
@@ -56,10 +24,21 @@ pub struct Summary {
     pub step_is_default: bool,
 }
 
-impl Summary {
-    /// One JSON object on a line.
-    pub fn json(&self) -> Result<String, CliError> {
-        print::json(self)
+impl<'a> Summary<'a> {
+    pub fn new(
+        simulation: &Simulation,
+        scene: &'a str,
+        csv: Option<&Path>,
+        step_is_default: bool,
+    ) -> Self {
+        Self {
+            scene,
+            report: simulation.report(),
+            csv: csv.map(|path| path.display().to_string()),
+            family: simulation.method().family(),
+            step_is_adjusted: simulation.clock().is_adjusted(),
+            step_is_default,
+        }
     }
 
     /// A line for each quantity, aligned.
@@ -74,29 +53,34 @@ impl Summary {
     }
 
     fn run(&self) -> Vec<(&'static str, String)> {
-        let mut rows = vec![];
-        let without = match self.reductions.join(", ") {
+        let report = &self.report;
+        let without = match report.reductions.join(", ") {
             none if none.is_empty() => none,
             some => format!(" (reductions: {some})"),
         };
-        if let Some(title) = &self.title {
+        let model = format!(
+            "{}, {} unknowns a step{without}",
+            report.group, report.unknowns
+        );
+        let mut rows = vec![];
+        if let Some(title) = &report.title {
             rows.push(("scene", one_line(title)));
         }
         rows.extend([
-            ("file", one_line(&self.scene)),
-            ("bodies", self.bodies.to_string()),
-            (
-                "model",
-                format!("{}, {} unknowns a step{without}", self.group, self.unknowns),
-            ),
+            ("file", one_line(self.scene)),
+            ("bodies", report.bodies.to_string()),
+            ("model", model),
             ("method", self.method()),
-            ("steps", self.steps.to_string()),
+            ("steps", report.steps.to_string()),
             ("step size", self.step()),
             (
                 "simulated time",
-                format!("{} s", decimal(self.until_seconds)),
+                format!("{} s", decimal(report.until_seconds)),
             ),
-            ("time per step", format!("{:.3} us", self.time_per_step_us)),
+            (
+                "time per step",
+                format!("{:.3} us", report.time_per_step_us),
+            ),
             ("samples", self.samples()),
         ]);
         if let Some(accuracy) = self.accuracy() {
@@ -110,21 +94,22 @@ impl Summary {
 
     /// What was asked for, and how far runs of shorter steps were away.
     fn accuracy(&self) -> Option<String> {
-        let asked = self.accuracy_asked?;
-        let (estimate, horizon) = (self.accuracy_estimate?, self.accuracy_horizon_seconds?);
+        let asked = self.report.accuracy_asked?;
+        let estimate = self.report.accuracy_estimate?;
+        let horizon = decimal(self.report.accuracy_horizon_seconds?);
         Some(format!(
-            "{asked:e} asked for; estimated error {estimate:.1e} rad or m over {} s, against shorter steps",
-            decimal(horizon)
+            "{asked:e} asked for; estimated error {estimate:.1e} rad or m over {horizon} s, against shorter steps"
         ))
     }
 
     fn quality(&self) -> Vec<(&'static str, String)> {
+        let report = &self.report;
         let (linear, angular) = (
-            self.linear_momentum_deviation_max,
-            self.angular_momentum_deviation_max,
+            scientific(report.linear_momentum_deviation_max),
+            scientific(report.angular_momentum_deviation_max),
         );
-        let share = optional(self.angular_momentum_deviation_max_relative);
-        let (by_weight, about) = match self.gravity_acts {
+        let share = optional(report.angular_momentum_deviation_max_relative);
+        let (by_weight, about) = match report.gravity_acts {
             true => (
                 " from its start plus weight times time",
                 ", about the vertical",
@@ -135,34 +120,34 @@ impl Summary {
             ("", String::new()),
             (
                 "energy at the start",
-                format!("{} J", decimal(self.energy_initial_joules)),
+                format!("{} J", decimal(report.energy_initial_joules)),
             ),
             (
                 "energy error, worst",
                 format!(
                     "{} J (relative to the kinetic {})",
-                    number(self.energy_error_max_joules),
-                    optional(self.energy_error_max_relative)
+                    scientific(report.energy_error_max_joules),
+                    optional(report.energy_error_max_relative)
                 ),
             ),
             (
                 "energy error, slope",
                 format!(
                     "{} per second (relative)",
-                    optional(self.energy_slope_per_second)
+                    optional(report.energy_slope_per_second)
                 ),
             ),
             (
                 "linear momentum deviation, worst",
-                format!("{} kg m/s{by_weight}", number(linear)),
+                format!("{linear} kg m/s{by_weight}"),
             ),
             (
                 "angular momentum deviation, worst",
-                format!("{} kg m^2/s (relative {share}){about}", number(angular)),
+                format!("{angular} kg m^2/s (relative {share}){about}"),
             ),
             (
                 "orthogonality error, worst",
-                number(self.orthogonality_error_max),
+                scientific(report.orthogonality_error_max),
             ),
             self.residual(),
             self.iterations(),
@@ -175,12 +160,15 @@ impl Summary {
             Family::Gauss { .. } => ("last change of the stages, largest", "relative"),
             _ => ("solver residual, largest", "relative to the momentum"),
         };
-        (name, format!("{} ({of})", number(self.solver_residual_max)))
+        let residual = scientific(self.report.solver_residual_max);
+        (name, format!("{residual} ({of})"))
     }
 
     fn iterations(&self) -> (&'static str, String) {
-        let (most, mean) = (self.solver_iterations_max, self.solver_iterations_mean);
-        let count = format!("{most} at most, {mean:.2} on average");
+        let count = format!(
+            "{} at most, {:.2} on average",
+            self.report.solver_iterations_max, self.report.solver_iterations_mean
+        );
         match self.family {
             Family::Gauss { stages: 1 } => ("sweeps a step", format!("{count}, over one stage")),
             Family::Gauss { stages } => ("sweeps a step", format!("{count}, over {stages} stages")),
@@ -193,26 +181,32 @@ impl Summary {
     }
 
     fn method(&self) -> String {
-        let (name, what, order) = (self.method, &self.method_description, self.method_order);
-        format!("{name}, order {order}: {what}")
+        let Report {
+            method,
+            method_order,
+            method_description,
+            ..
+        } = &self.report;
+        format!("{method}, order {method_order}: {method_description}")
     }
 
     fn samples(&self) -> String {
-        let every = match (self.sample_every_steps, self.sample_every_seconds) {
+        let report = &self.report;
+        let every = match (report.sample_every_steps, report.sample_every_seconds) {
             (Some(1), _) => "at every step".to_owned(),
             (Some(steps), _) => format!("every {steps} steps"),
             (None, Some(seconds)) => format!("every {} s", decimal(seconds)),
-            (None, None) => return self.samples.to_string(),
+            (None, None) => return report.samples.to_string(),
         };
-        format!("{}, {every}", self.samples)
+        format!("{}, {every}", report.samples)
     }
 
     fn step(&self) -> String {
-        let step = decimal(self.step_seconds);
-        let asked = decimal(self.step_asked_seconds);
-        let until = decimal(self.until_seconds);
+        let step = decimal(self.report.step_seconds);
+        let asked = decimal(self.report.step_asked_seconds);
+        let until = decimal(self.report.until_seconds);
         let instead = match (self.step_is_adjusted, self.step_is_default) {
-            _ if self.accuracy_asked.is_some() => {
+            _ if self.report.accuracy_asked.is_some() => {
                 return format!("{step} s, chosen for the accuracy");
             }
             (false, true) => return format!("{step} s, the method's default"),
@@ -224,14 +218,7 @@ impl Summary {
     }
 }
 
-fn number(value: f64) -> String {
-    match value {
-        0.0 => "0".to_owned(),
-        _ => format!("{value:.3e}"),
-    }
-}
-
 /// A relative value, which is none where the start is zero.
 fn optional(value: Option<f64>) -> String {
-    value.map_or_else(|| "undefined".to_owned(), number)
+    value.map_or_else(|| "undefined".to_owned(), scientific)
 }

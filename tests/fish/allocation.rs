@@ -3,8 +3,8 @@
 use allocation_counter::measure;
 use articulated_fluid::Scene;
 use dvi::{Composition, Gauss, Integrator, State, Variational};
+use lgvi::sim::Method;
 use lgvi::{articulated_fluid, dvi};
-use study::methods::Method;
 
 use crate::by_duals::ByDuals;
 use crate::common::{ValueOnly, paper};
@@ -62,7 +62,7 @@ fn steps_of_any_scene_do_not_allocate() {
         let path = format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let scene = Scene::load(path.as_ref()).unwrap();
         let mut state = scene.initial_state().unwrap();
-        let mut integrator = Method::Lgvi.integrator_of_smallest(&scene.smallest().unwrap());
+        let mut integrator = Method::default().integrator_of_smallest(&scene.smallest().unwrap());
         integrator.step(&mut state, 1e-3).unwrap();
         let steps = measure(|| {
             for _ in 0..100 {

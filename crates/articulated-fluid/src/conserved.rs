@@ -41,6 +41,17 @@ impl ArticulatedBody {
     /// # Errors
     /// As [`velocity`](Self::velocity); [`ModelError::NotFinite`] where one of them is not finite.
     pub fn conserved(&self, state: &State<Configuration>) -> Result<Conserved, ModelError> {
+        Ok(self.velocity_and_conserved(state)?.1)
+    }
+
+    /// Both at the price of one.
+    ///
+    /// # Errors
+    /// As [`conserved`](Self::conserved).
+    pub fn velocity_and_conserved(
+        &self,
+        state: &State<Configuration>,
+    ) -> Result<(<Configuration as LieGroup>::Algebra, Conserved), ModelError> {
         let xi = self.velocity(state)?;
         let ((r, x), (p, px)) = (&state.g, &state.mu);
         let potential = self.loads.potential(r, x[0].vec3());
@@ -66,7 +77,7 @@ impl ArticulatedBody {
         ];
         match checks.iter().find(|(finite, _)| !finite) {
             Some((_, quantity)) => Err(ModelError::NotFinite { quantity }),
-            None => Ok(conserved),
+            None => Ok((xi, conserved)),
         }
     }
 }

@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 
 use articulated_fluid::{Configuration, Scene};
 use dvi::{Gauss, Integrator, State};
+use sim::Method;
 use study::baseline::{Motion, Pair, Tolerance};
 use study::contender::{Contender, Problem, Setting};
-use study::methods::Method;
 use study::work_precision::Errors;
 
 /// Errors that are asked for, rad.
@@ -92,7 +92,7 @@ fn apart(problem: &Problem, states: &States, exact: &States) -> Result<f64, Erro
 
 fn explicit(problem: &Problem) -> Result<Vec<Point>, Error> {
     let parts = (REFERENCE_RATE * problem.until).round() as u64;
-    let gauss = Contender::Structure(Method::Gauss8);
+    let gauss = Contender::Structure(Method::gauss(8).expect("one of eight stages"));
     let exact = gauss.sample(problem, Setting::Steps(parts), parts)?;
     let dp853: Contender = "dp853".parse()?;
     let error = |tolerance| {

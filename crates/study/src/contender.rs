@@ -10,6 +10,7 @@
 //! # Ok::<(), study::contender::UnknownContender>(())
 //! ```
 
+mod describe;
 mod failure;
 mod problem;
 mod run;
@@ -23,7 +24,8 @@ pub use failure::Failure;
 pub use problem::{Cost, Problem, Setting};
 
 use crate::baseline::{self, Baseline};
-use crate::methods::{Family, Method};
+use sim::Method;
+use sim::method::Family;
 
 /// A way to integrate the continuous or the discrete model of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +98,7 @@ impl Contender {
     /// What it is, in a line.
     pub fn description(self) -> String {
         match self {
-            Self::Structure(method) => method.description(),
+            Self::Structure(method) => return method.description().to_owned(),
             Self::Pilot => {
                 "variational Gauss collocation, its stages and step chosen by a pilot run"
                     .to_owned()

@@ -3,26 +3,20 @@
 //!
 //! * [`problems`] — classical test problems, each with its solution and its
 //!   conserved quantities;
-//! * [`methods`] — the integrators of the fish chain's model, by name;
-//! * [`accuracy`] — a scene's integrator for a wanted accuracy;
 //! * [`baseline`] — explicit competitors, adaptive and of a fixed step, on raw
 //!   matrices and on the group, and an independent reference;
 //! * [`contender`] — methods and baselines under one name each, run in one way;
 //! * [`work_precision`] — what each of them costs for which error;
 //! * [`stability`] — in which steps each of them fails, how, and at which wall;
-//! * [`watch`] — how far a run strays from what the motion keeps;
 //! * [`survey`] — order, energy, momentum maps and symplecticity of any method
 //!   on a test problem, and methods that are wrong on purpose;
 //! * [`figure`] — grids of charts, written as SVG and PNG without any
 //!   font of the system.
 
-pub mod accuracy;
 pub mod baseline;
 pub mod contender;
 pub mod figure;
-pub mod methods;
 pub mod problems;
 pub mod stability;
 pub mod survey;
-pub mod watch;
 pub mod work_precision;

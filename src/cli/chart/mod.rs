@@ -6,14 +6,16 @@ mod report;
 use std::path::PathBuf;
 
 use indicatif::ProgressBar;
+use sim::number::decimal;
 use study::contender::{Contender, Problem};
 use study::work_precision::{Curve, MEANINGFUL, Reference, Sweep, Timing, csv, picture};
 
 use super::args;
+use super::contenders;
 use super::error::CliError;
 use super::files::Files;
 use super::interrupt::Interrupt;
-use super::print::{self, decimal, one_line};
+use super::print::{self, one_line};
 use super::progress;
 use super::scene::{Loaded, load};
 use report::Report;
@@ -33,7 +35,7 @@ pub struct Args {
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = args::seconds, allow_hyphen_values = true)]
     until: f64,
     /// The methods to compare, separated by commas
-    #[arg(long, value_name = "NAMES", default_value = METHODS, value_delimiter = ',', value_parser = args::contender())]
+    #[arg(long, value_name = "NAMES", default_value = METHODS, value_delimiter = ',', value_parser = contenders::contender())]
     methods: Vec<Contender>,
     /// Write STEM.svg, STEM.png and STEM.csv: whole, or not at all
     #[arg(long, value_name = "STEM", default_value = "chart")]
@@ -99,7 +101,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let written = files.finish(&figure.render()?, &csv(&curves, args.until))?;
     let report = Report::new(&loaded, &problem, &reference, &curves, &written);
     print::stdout(&match args.json {
-        true => print::json(&json::Object::from(&report))?,
+        true => print::json(&json::Object::new(&report))?,
         false => report.text(),
     })
 }

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use sim::number::{decimal, three_digits};
 use study::contender::{Contender, Control, Problem};
 use study::work_precision::{Choice, Curve, Reference, cheapest};
 
-use crate::cli::print::{self, decimal, one_line, three_digits};
+use crate::cli::print::{self, one_line};
 use crate::cli::scene::Loaded;
 
 /// Attitude errors that one may ask for, rad.

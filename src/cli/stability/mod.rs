@@ -6,14 +6,16 @@ mod report;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use sim::number::decimal;
 use study::contender::Contender;
 use study::stability::{Grid, Map, Pace, Parameter, csv, picture};
 
 use super::args;
+use super::contenders;
 use super::error::CliError;
 use super::files::Files;
 use super::interrupt::Interrupt;
-use super::print::{self, decimal, one_line};
+use super::print::{self, one_line};
 use super::progress;
 use super::scene::{Loaded, load};
 use report::Report;
@@ -30,16 +32,16 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
     /// What of the scene is varied
-    #[arg(long, value_name = "NAME", default_value = "mass-ratio", value_parser = args::parameter())]
+    #[arg(long, value_name = "NAME", default_value = "mass-ratio", value_parser = contenders::parameter())]
     parameter: Parameter,
     /// Its values, separated by commas: multiples of the scene's own, or N m [default: five of them]
-    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', value_parser = args::multiple, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', value_parser = contenders::multiple, allow_hyphen_values = true)]
     values: Vec<f64>,
     /// The sizes of the steps, in seconds, separated by commas
     #[arg(long, value_name = "SECONDS", default_value = STEPS, value_delimiter = ',', value_parser = args::seconds, allow_hyphen_values = true)]
     steps: Vec<f64>,
     /// The methods to map, separated by commas; none that chooses its steps
-    #[arg(long, value_name = "NAMES", default_value = METHODS, value_delimiter = ',', value_parser = args::stepper())]
+    #[arg(long, value_name = "NAMES", default_value = METHODS, value_delimiter = ',', value_parser = contenders::stepper())]
     methods: Vec<Contender>,
     /// Simulated time, in seconds
     #[arg(long, value_name = "SECONDS", default_value = "1000", value_parser = args::seconds, allow_hyphen_values = true)]
@@ -114,7 +116,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
         files: &written,
     };
     print::stdout(&match args.json {
-        true => print::json(&json::Object::from(&report))?,
+        true => print::json(&json::Object::new(&report))?,
         false => report.text(),
     })
 }

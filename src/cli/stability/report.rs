@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use sim::number::{decimal, three_digits};
 use study::stability::{Class, Limit, Map, Outcome, Wall};
 
-use crate::cli::print::{self, decimal, one_line, three_digits};
+use crate::cli::print::{self, one_line};
 use crate::cli::scene::Loaded;
 
 /// The map and what follows from it.

@@ -2,8 +2,7 @@
 
 use articulated_fluid::Scene;
 use lie::{LieGroup, SO3, Tangent, Vec3};
-use study::methods::Method;
-use study::watch::attitudes;
+use sim::{Method, attitudes};
 
 use super::change::{self, Units};
 

@@ -10,7 +10,7 @@ mod random;
 
 use std::process::ExitCode;
 
-use study::methods::Method;
+use sim::Method;
 
 use law::Law;
 

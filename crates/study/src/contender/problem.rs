@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use articulated_fluid::{ArticulatedBody, Configuration, ModelError, Scene};
 use dvi::State;
+use serde::{Serialize, Serializer};
 
 use super::Control;
 
@@ -63,9 +64,10 @@ impl fmt::Display for Setting {
 }
 
 /// What a run cost; counts do not depend on the machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cost {
     /// Of stepping alone.
+    #[serde(rename = "seconds", serialize_with = "seconds")]
     pub time: Duration,
     /// Steps taken, of an adaptive method those accepted.
     pub steps: u64,
@@ -74,6 +76,10 @@ pub struct Cost {
     pub evaluations: u64,
     /// Of the solver; none of an explicit method.
     pub iterations: u64,
+}
+
+fn seconds<S: Serializer>(time: &Duration, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(time.as_secs_f64())
 }
 
 impl Problem {

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use articulated_fluid::Scene;
 use rayon::iter::{IntoParallelRefIterator, ParallelBridge, ParallelIterator};
+use serde::Serialize;
 
 use super::outcome::{Class, Outcome};
 use super::run::run;
@@ -12,7 +13,7 @@ use super::{Parameter, ParameterError};
 use crate::contender::{Contender, Control, Problem};
 
 /// What is run: every method in steps of every size at every value of the parameter.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Grid {
     /// What is varied.
@@ -20,10 +21,13 @@ pub struct Grid {
     /// The multiples of the scene's own, from small to large.
     pub values: Vec<f64>,
     /// Each once, in the order given; none that chooses its steps.
+    #[serde(skip)]
     pub methods: Vec<Contender>,
     /// The sizes of the steps, s, from short to long.
+    #[serde(rename = "steps_seconds")]
     pub steps: Vec<f64>,
     /// How long the motion is followed, s.
+    #[serde(rename = "until_seconds")]
     pub until: f64,
 }
 

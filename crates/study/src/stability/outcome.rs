@@ -4,9 +4,10 @@ use core::fmt;
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::{State, StepError};
+use serde::{Serialize, Serializer};
+use sim::{Sample, Watch};
 
 use crate::contender::Failure;
-use crate::watch::{Sample, Watch};
 
 /// The energy may stray by this part of the largest kinetic energy so far, that of the motion's first half radian included; a run that
 /// strays further ends there.
@@ -27,7 +28,8 @@ pub const WRONG: f64 = 1.0;
 /// What a run came to; of several that hold, the first of this list.
 ///
 /// The first three end a run when they happen; the others are judged at its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Class {
     /// A number of the state, of a momentum or of the energy was not finite.
     NonFinite,
@@ -101,29 +103,45 @@ impl fmt::Display for Class {
 }
 
 /// The class of a run, and what it was judged by.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Outcome {
     /// What it came to.
     pub class: Class,
     /// How far the run came, s.
+    #[serde(rename = "time_seconds")]
     pub t: f64,
     /// The largest error of the energy, relative to the largest kinetic energy.
+    #[serde(rename = "energy_error_relative")]
     pub energy: Option<f64>,
     /// By how much the line through that error moved, over the time that was run.
+    #[serde(rename = "energy_drift_relative")]
     pub drift: Option<f64>,
     /// The part of that error's variance that the line explains.
+    #[serde(rename = "energy_trend")]
     pub trend: f64,
     /// The largest error of a momentum, relative as [`MOMENTUM`] says.
+    #[serde(rename = "momentum_error_relative")]
     pub momentum: Option<f64>,
     /// The largest orthogonality error.
+    #[serde(rename = "orthogonality_error")]
     pub orthogonality: f64,
     /// The largest angle from the reference, rad; none where the run ended before the first comparison.
+    #[serde(rename = "attitude_error_radians")]
     pub attitude: Option<f64>,
     /// Why a step was not taken.
+    #[serde(serialize_with = "told")]
     pub failure: Option<Failure>,
     /// The state from which a step was refused.
+    #[serde(skip)]
     pub refused_at: Option<State<Configuration>>,
+}
+
+fn told<S: Serializer>(failure: &Option<Failure>, serializer: S) -> Result<S::Ok, S::Error> {
+    failure
+        .as_ref()
+        .map(Failure::to_string)
+        .serialize(serializer)
 }
 
 impl Outcome {

@@ -7,6 +7,7 @@ use core::str::FromStr;
 
 use articulated_fluid::scene::{SceneBody, StartVelocity};
 use articulated_fluid::{Ellipsoid, EllipsoidError, ModelError, Scene};
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::contender::Problem;
@@ -15,7 +16,8 @@ use crate::contender::Problem;
 const SAME: f64 = 1e-9;
 
 /// What of a scene is varied: all but the stiffness in multiples of the scene's own, where 1 is the scene as it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Parameter {
     /// All initial velocities.

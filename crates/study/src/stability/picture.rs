@@ -1,9 +1,10 @@
 //! The map as a picture.
 
+use sim::number::three_digits;
+
 use super::outcome::{ENERGY_BAND, ENERGY_DRIFT, GROUP, MOMENTUM, WRONG};
 use super::{Class, Map};
 use crate::figure::{Colour, Kind, Mosaic, Tiles};
-use crate::work_precision::three_digits;
 
 const COLUMNS: usize = 5;
 
@@ -27,7 +28,7 @@ impl Class {
 /// A map of each method: the step to the right, the parameter upwards.
 pub fn picture(map: &Map, title: &str) -> Mosaic {
     let grid = &map.grid;
-    let name = |number: &f64| three_digits(*number).to_string();
+    let name = |number: &f64| three_digits(*number);
     Mosaic {
         title: title.to_owned(),
         columns: COLUMNS,

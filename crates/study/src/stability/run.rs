@@ -1,13 +1,11 @@
 //! One method in steps of one size, from the start until it has gone wrong.
 
 use articulated_fluid::Configuration;
-use dvi::{Integrator, State};
+use sim::{BoxedIntegrator, Clock, Run, Sample};
 
 use super::outcome::{End, Judge, Outcome};
 use super::window::{Window, kinetic_ahead};
 use crate::contender::{Contender, Problem};
-use crate::methods::BoxedIntegrator;
-use crate::watch::Sample;
 
 /// Times at which a run is looked at, where it has so many steps.
 const SAMPLES: u64 = 4096;
@@ -23,11 +21,12 @@ pub(super) fn run(
     h: f64,
     late: &dyn Fn() -> bool,
 ) -> Option<Outcome> {
-    let mut run = Run {
-        integrator: contender.integrator(problem)?,
+    // A remainder of rounding is no step.
+    let steps = (problem.until / h - 1e-9).ceil().max(1.0) as u64;
+    let (integrator, clock) = (contender.integrator(problem)?, Clock::counted(steps, h));
+    let mut trial = Trial {
         problem,
-        h,
-        state: problem.start.clone(),
+        run: Run::new(integrator, problem.start.clone(), clock),
         window: None,
     };
     let Some(start) = Sample::take(&problem.model, &problem.start) else {
@@ -35,36 +34,34 @@ pub(super) fn run(
     };
     // From rest, the first step's error is as large as its energy.
     let mut judge = Judge::new(&problem.model, start, kinetic_ahead(problem, h));
-    let end = run.follow(&mut judge, late);
+    let end = trial.follow(&mut judge, late);
     Some(judge.judge(end))
 }
 
-struct Run<'a> {
-    integrator: BoxedIntegrator<Configuration>,
+struct Trial<'a> {
     problem: &'a Problem,
-    h: f64,
-    state: State<Configuration>,
+    run: Run<BoxedIntegrator<Configuration>>,
     /// The one that is open, and the step with which it closes.
     window: Option<(u64, Window)>,
 }
 
-impl Run<'_> {
+impl Trial<'_> {
     fn follow(&mut self, judge: &mut Judge, late: &dyn Fn() -> bool) -> End {
-        // A remainder of rounding is no step.
-        let steps = (self.problem.until / self.h - 1e-9).ceil().max(1.0) as u64;
+        let (model, clock) = (&self.problem.model, *self.run.clock());
+        let (steps, h) = (clock.steps(), clock.step());
         let (look, compare) = (steps.div_ceil(SAMPLES), steps.div_ceil(WINDOWS));
         for step in 1..=steps {
             if self.window.is_none() && (step - 1).is_multiple_of(compare) {
-                let window = Window::open(&self.problem.model, &self.state, self.h, compare);
+                let window = Window::open(model, self.run.state(), h, compare);
                 self.window = window.map(|window| (step - 1 + window.steps, window));
             }
-            if let Err(error) = self.integrator.step(&mut self.state, self.h) {
-                return End::Stopped(error, Box::new(self.state.clone()));
+            if let Err(error) = self.run.step() {
+                return End::Stopped(error, Box::new(self.run.state().clone()));
             }
             self.close_window(step, judge);
             if step.is_multiple_of(look) || step == steps {
-                match Sample::take(&self.problem.model, &self.state) {
-                    None => return End::NotFinite(self.state.t),
+                match Sample::take(model, self.run.state()) {
+                    None => return End::NotFinite(self.run.state().t),
                     Some(sample) if !judge.add(&sample) => return End::OffBand,
                     Some(_) => {}
                 }
@@ -78,7 +75,7 @@ impl Run<'_> {
 
     fn close_window(&mut self, step: u64, judge: &mut Judge) {
         if let Some((_, window)) = self.window.take_if(|(last, _)| *last == step)
-            && let Some(angle) = window.angle(&self.problem.model, &self.state)
+            && let Some(angle) = window.angle(&self.problem.model, self.run.state())
         {
             judge.compare(angle);
         }

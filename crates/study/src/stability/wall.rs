@@ -2,11 +2,12 @@
 
 use articulated_fluid::Configuration;
 use dvi::{Integrator, State};
+use serde::{Serialize, Serializer};
+use sim::BoxedIntegrator;
 
 use super::outcome::{Class, Outcome, WRONG};
 use super::window::Window;
 use crate::contender::{Contender, Kind, Problem};
-use crate::methods::BoxedIntegrator;
 use crate::work_precision::apart;
 
 /// Continuation begins at this part of the refused step.
@@ -18,16 +19,20 @@ const FINEST: f64 = 1.002;
 const JUMP: f64 = 0.5;
 
 /// The largest step in which a method is good, and what ends there.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Limit {
     /// The largest step, s, such that it and all shorter ones of the grid that had time are good; none where the shortest is not.
+    #[serde(rename = "largest_good_step_seconds")]
     pub step: Option<f64>,
     /// How many of the shortest steps had no time.
+    #[serde(rename = "shorter_steps_without_time")]
     pub untried: usize,
     /// What the next longer step runs into.
+    #[serde(flatten)]
     pub wall: Wall,
     /// The index of that step; none where all are good.
+    #[serde(skip)]
     pub next: Option<usize>,
 }
 
@@ -71,6 +76,25 @@ impl Wall {
             Self::Wrong => "wrong",
             Self::Unknown => "unknown",
         }
+    }
+}
+
+impl Serialize for Wall {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Object {
+            wall: &'static str,
+            equation_ends_at_step_seconds: Option<f64>,
+        }
+        let ends = match self {
+            Self::Equation { ends } => Some(*ends),
+            _ => None,
+        };
+        let object = Object {
+            wall: self.name(),
+            equation_ends_at_step_seconds: ends,
+        };
+        object.serialize(serializer)
     }
 }
 

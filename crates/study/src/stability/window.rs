@@ -2,13 +2,12 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
+use sim::{Method, Sample};
 
 use super::outcome::WRONG;
 use crate::baseline::{Tolerance, on_group};
 use crate::contender::{Contender, Problem, Setting};
-use crate::methods::Method;
-use crate::watch::{Sample, fastest_rate};
-use crate::work_precision::apart;
+use crate::work_precision::{apart, fastest_rate};
 
 /// Of the reference's steps: it is to tell a radian.
 const TOLERANCE: f64 = 1e-9;
@@ -17,7 +16,7 @@ const TURNED: f64 = 0.5;
 /// A step of more radians has no reference.
 const MOST: f64 = 1e3;
 /// The method of another family that must agree with it where it contradicts.
-const CHECK: Contender = Contender::Structure(Method::Gauss8);
+const CHECK: Contender = Contender::Structure(Method::gauss(8).unwrap());
 /// Steps of the check in a radian.
 const CHECK_STEPS: f64 = 8.0;
 /// To this part of the angle in question.

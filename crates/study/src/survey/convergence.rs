@@ -2,6 +2,7 @@
 
 use dvi::laws::distance;
 use dvi::{Integrator, State, StepError};
+use sim::{Clock, Run};
 
 use super::slope;
 use crate::problems::ProblemError;
@@ -41,11 +42,10 @@ pub fn convergence<I: Integrator>(
 ) -> Result<Convergence, StepError> {
     let run = |&steps: &u32| {
         let h = (exact.t - start.t) / f64::from(steps);
-        let (mut state, mut integrator) = (start.clone(), integrator());
-        for _ in 0..steps {
-            integrator.step(&mut state, h)?;
-        }
-        Ok((h, distance(exact, &state)))
+        let clock = Clock::counted(steps.into(), h);
+        let mut run = Run::new(integrator(), start.clone(), clock);
+        run.advance(clock.steps())?;
+        Ok((h, distance(exact, run.state())))
     };
     let errors: Vec<(f64, f64)> = steps.iter().map(run).collect::<Result<_, StepError>>()?;
     let above = errors.iter().filter(|(_, error)| *error > plateau);

@@ -2,6 +2,7 @@
 
 use dvi::{Integrator, Lagrangian, State, StepError, Symmetry, momentum_map};
 use lie::{RealGroup, VectorSpace};
+use sim::{Clock, Run};
 
 use super::slope;
 use crate::problems::Problem;
@@ -36,23 +37,23 @@ pub fn long_run<L, X>(
 where
     L: Lagrangian,
 {
-    let mut state = problem.start.clone();
-    let (initial, momenta) = (problem.energy(&state), problem.momenta(&state));
-    let mut energy = Vec::with_capacity((steps / every.max(1)) as usize + 1);
+    let (steps, every) = (u64::from(steps), u64::from(every.max(1)));
+    let start = problem.start.clone();
+    let (initial, momenta) = (problem.energy(&start), problem.momenta(&start));
+    let mut run = Run::new(integrator, start, Clock::counted(steps, h));
+    let mut energy = vec![];
     let mut seen = vec![(0.0_f64, 0.0_f64); momenta.len()];
-    let mut residual = 0.0_f64;
-    for step in 1..=steps {
-        residual = residual.max(integrator.step(&mut state, h)?.residual);
-        if step % every.max(1) != 0 {
-            continue;
-        }
-        energy.push((state.t, problem.energy(&state) / initial - 1.0));
+    for look in 1..=steps / every {
+        run.advance(look * every)?;
+        let state = run.state();
+        energy.push((state.t, problem.energy(state) / initial - 1.0));
         for (named, (then, seen)) in problem.symmetries.iter().zip(momenta.iter().zip(&mut seen)) {
             let now = momentum_map(&named.symmetry, &state.g, &state.mu);
             seen.0 = seen.0.max((now - then).abs());
-            seen.1 = seen.1.max(terms(&named.symmetry, &state));
+            seen.1 = seen.1.max(terms(&named.symmetry, state));
         }
     }
+    run.advance(steps)?;
     Ok(LongRun {
         band: energy
             .iter()
@@ -60,7 +61,7 @@ where
         drift: slope(&energy),
         energy,
         momenta: seen.iter().map(|(change, size)| change / size).collect(),
-        residual,
+        residual: run.cost().residual,
     })
 }
 

@@ -3,27 +3,35 @@
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
 use lie::SO3;
+use serde::Serialize;
+use sim::{Sample, Watch, attitudes};
 
 use crate::contender::Failure;
-use crate::watch::{Sample, Watch, attitudes};
 
 /// The largest errors over a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Errors {
     /// The largest angle between a body's attitude and the reference's, rad.
+    #[serde(rename = "attitude_error_radians")]
     pub attitude: f64,
     /// The largest distance of a mass centre from the reference's, m.
+    #[serde(rename = "position_error_metres")]
     pub position: f64,
     /// Of the energy, relative to the largest kinetic one; `None` where that is zero.
+    #[serde(rename = "energy_error_relative")]
     pub energy: Option<f64>,
     /// The slope of that error by least squares, 1/s.
+    #[serde(rename = "energy_slope_per_second")]
     pub energy_slope: Option<f64>,
     /// Of the linear momentum, less what the weight adds, kg m/s.
+    #[serde(rename = "linear_momentum_deviation")]
     pub linear_momentum: f64,
     /// Of the angular momentum, under gravity about the vertical, kg m²/s.
+    #[serde(rename = "angular_momentum_deviation")]
     pub angular_momentum: f64,
     /// The largest $\lVert I - R^T R \rVert_F$.
+    #[serde(rename = "orthogonality_error")]
     pub orthogonality: f64,
 }
 

@@ -3,6 +3,7 @@
 use articulated_fluid::Configuration;
 use dvi::State;
 use lie::VectorSpace;
+use serde::Serialize;
 
 use super::reference::{TOLERANCE, apart};
 use crate::baseline::Tolerance;
@@ -21,14 +22,17 @@ const LOOKS: u32 = 32;
 /// The growth of a perturbation of the momenta by 1e-10 of the largest of them.
 ///
 /// One pair of trajectories is one throw of the dice: take the time for its size, not its digits.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Horizon {
     /// What the largest difference in attitude by the end of the run is of the perturbation, rad.
+    #[serde(rename = "growth_of_a_difference")]
     pub growth: f64,
     /// When a difference of one rounding would have grown to a radian, s: extrapolated as an exponential from the growth to 1e-3.
+    #[serde(rename = "horizon_seconds")]
     pub time: f64,
     /// Whether it did not grow so far while it was followed; then the time is a lower bound.
+    #[serde(rename = "horizon_is_lower_bound")]
     pub is_bound: bool,
 }
 

@@ -2,6 +2,8 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
+use serde::Serialize;
+use sim::Method;
 use thiserror::Error;
 
 use super::errors::distance;
@@ -9,32 +11,35 @@ use super::{Errors, Horizon, SAMPLES};
 use crate::baseline::Tolerance;
 use crate::baseline::on_group::{self, ReferenceError};
 use crate::contender::{Contender, Failure, Problem, Setting};
-use crate::methods::Method;
-use crate::watch::fastest_rate;
 
 /// Of the reference's steps.
 pub(super) const TOLERANCE: f64 = 1e-13;
 /// The method that must agree with it.
-const CHECK: Contender = Contender::Structure(Method::Gauss8);
+const CHECK: Contender = Contender::Structure(Method::gauss(8).unwrap());
 /// The check's steps are halved at most this often.
 const HALVINGS: u32 = 8;
 
 /// The motion at the sample times, by an explicit pair of order 8 in charts at a tolerance of 1e-13, checked by an implicit method of
 /// another family, gauss-8.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Reference {
     /// At the $k T / n$, $n$ = [`SAMPLES`].
+    #[serde(skip)]
     pub states: Vec<State<Configuration>>,
     /// The largest angle between the two methods' attitudes, rad: errors below are not known.
+    #[serde(rename = "attitude_uncertainty_radians")]
     pub attitude: f64,
     /// The largest distance between the two methods' mass centres, m.
+    #[serde(rename = "position_uncertainty_metres")]
     pub position: f64,
     /// Steps of the check.
     pub check_steps: u64,
     /// How long a trajectory means anything.
+    #[serde(flatten)]
     pub horizon: Horizon,
     /// The time in which the fastest body turns by a radian, s; at most the run's length.
+    #[serde(skip)]
     pub radian: f64,
 }
 
@@ -134,4 +139,11 @@ pub(crate) fn apart(
     b: &State<Configuration>,
 ) -> f64 {
     distance(model, &a.g, &b.g).map_or(f64::INFINITY, |(angle, _)| angle)
+}
+
+/// The largest angular velocity of a body, rad/s; `None` where the state does not fit the model.
+pub(crate) fn fastest_rate(model: &ArticulatedBody, state: &State<Configuration>) -> Option<f64> {
+    let xi = model.velocity(state).ok()?;
+    let rates = core::iter::once(&xi.0).chain(xi.2.iter());
+    Some(rates.map(|omega| omega.vec3().norm()).fold(0.0, f64::max))
 }

@@ -2,6 +2,9 @@
 
 use std::time::{Duration, Instant};
 
+use serde::Serialize;
+use sim::number::three_digits;
+
 use super::{Errors, Reference, SAMPLES, Timing};
 use crate::contender::{Contender, Control, Cost, Failure, Problem, Setting};
 
@@ -21,14 +24,16 @@ const LATE: u32 = 10;
 const MOST: usize = 64;
 
 /// What a setting reached, and at what price.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Measured {
     /// With the least time of several runs.
+    #[serde(flatten)]
     pub cost: Cost,
     /// How many.
     pub runs: u32,
     /// The largest over the run.
+    #[serde(flatten)]
     pub errors: Errors,
 }
 
@@ -194,11 +199,6 @@ impl<'a> Sweep<'a> {
             Setting::Accuracy(accuracy) => Some(Setting::Accuracy(a_tenth(accuracy)?)),
         }
     }
-}
-
-/// For people.
-pub(crate) fn three_digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
 }
 
 /// The next power of ten below, if it is worth trying.

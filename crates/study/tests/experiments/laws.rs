@@ -7,7 +7,7 @@ pub mod law;
 #[path = "../../examples/laws/random.rs"]
 mod random;
 
-use study::methods::Method;
+use sim::Method;
 
 use law::Law;
 

@@ -7,7 +7,6 @@ mod contenders;
 mod figure;
 mod hard;
 mod laws;
-mod methods;
 mod problems;
 mod scales;
 mod stability;

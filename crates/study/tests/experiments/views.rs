@@ -2,11 +2,9 @@
 
 use articulated_fluid::{Configuration, Scene};
 use dvi::State;
-use study::accuracy;
+use sim::{Choice, Method, attitudes};
 use study::baseline::{Motion, Pair, Tolerance};
 use study::contender::Problem;
-use study::methods::Method;
-use study::watch::attitudes;
 
 fn parse(text: &str) -> Scene {
     Scene::parse(text, "scene.toml").expect("a scene")
@@ -76,17 +74,18 @@ fn in_a_vacuum_attitudes_and_iterations_depend_on_neither_drift_nor_fall() {
 fn a_wanted_accuracy_takes_the_same_steps_at_any_speed() {
     let pilot = |velocity, gravity| {
         let smallest = satellite(velocity, gravity).smallest().expect("a model");
-        accuracy::pilot(&smallest, 20.0, 1e-3).expect("a method")
+        let chosen = Choice::Accuracy(1e-3).resolve(&smallest, 20.0);
+        chosen.expect("a method")
     };
     let still = pilot(REST, REST);
     assert_eq!(pilot(DRIFT, REST), still);
     assert_eq!(pilot(DRIFT, GRAVITY), still);
     // And is reached, against another method at rest on the raw model.
     let scene = satellite(DRIFT, GRAVITY);
-    let mut integrator = accuracy::integrator(&scene.smallest().expect("a model"), &still);
+    let mut integrator = still.integrator_of_smallest(&scene.smallest().expect("a model"));
     let mut state = scene.initial_state().expect("a state");
-    for _ in 0..(20.0 / still.h).round() as u32 {
-        integrator.step(&mut state, still.h).expect("a step");
+    for _ in 0..(20.0 / still.step).round() as u32 {
+        integrator.step(&mut state, still.step).expect("a step");
     }
     let scene = satellite(REST, REST);
     let (model, start) = (

@@ -2,7 +2,8 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use dvi::{State, laws};
-use study::methods::{Conserved, Family, Method, UnknownMethod};
+use sim::method::{Conserved, Family};
+use sim::{Method, UnknownMethod};
 
 fn paper() -> (ArticulatedBody, State<Configuration>) {
     let text = include_str!("../../../../scenes/fish-chain.toml");

@@ -1,8 +1,6 @@
 //! The times of a run: counted, not summed.
 
-use thiserror::Error;
-
-use super::print::decimal;
+use crate::error::{SimError, positive};
 
 /// More steps than this are taken for a slip: a day of computing and more.
 pub const MAX_STEPS: f64 = 1e11;
@@ -10,57 +8,71 @@ pub const MAX_STEPS: f64 = 1e11;
 /// What rounding does to the quotient of two durations, relative, with room to spare.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A run from 0 to `until` seconds in equal steps.
+/// A run of equal steps from time zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
-    /// The time of the last step's end, s.
-    pub until: f64,
-    /// The number of steps, at least one.
-    pub steps: u64,
-    /// The step that was asked for, s; the step taken is no longer.
-    pub asked: f64,
-}
-
-/// A run of absurdly many steps.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error(
-    "{} s in steps of {} s are {count:.1e} steps, more than {MAX_STEPS:.0e}; take a longer --step or a shorter --until",
-    decimal(*until), decimal(*step)
-)]
-pub struct TooManySteps {
-    /// The time to run to, s.
-    pub until: f64,
-    /// The step, s.
-    pub step: f64,
-    /// How many steps that would be.
-    pub count: f64,
+    until: f64,
+    steps: u64,
+    step: f64,
+    asked: f64,
 }
 
 impl Clock {
-    /// The fewest equal steps, none longer than `step`, that end at `until`.
-    pub fn new(until: f64, step: f64) -> Result<Self, TooManySteps> {
+    /// The fewest equal steps, none longer than `step` seconds, that end at `until` seconds.
+    ///
+    /// # Errors
+    /// [`SimError::NotPositive`], [`SimError::TooManySteps`].
+    pub fn new(until: f64, step: f64) -> Result<Self, SimError> {
+        positive("time to run to, in seconds,", until)?;
+        positive("step, in seconds,", step)?;
         let ratio = until / step;
         let nearest = ratio.round();
         let whole = (ratio - nearest).abs() <= ROUNDING * ratio;
         let count = if whole { nearest } else { ratio.ceil() }.max(1.0);
         if count > MAX_STEPS {
-            return Err(TooManySteps { until, step, count });
+            return Err(SimError::TooManySteps { until, step, count });
         }
         Ok(Self {
             until,
             steps: count as u64,
+            step: until / count,
             asked: step,
         })
     }
 
+    /// So many steps of `step` seconds each.
+    pub fn counted(steps: u64, step: f64) -> Self {
+        Self {
+            until: steps as f64 * step,
+            steps,
+            step,
+            asked: step,
+        }
+    }
+
+    /// The time of the last step's end, s.
+    pub fn until(&self) -> f64 {
+        self.until
+    }
+
+    /// The number of steps.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
     /// The step taken, s.
     pub fn step(&self) -> f64 {
-        self.until / self.steps as f64
+        self.step
+    }
+
+    /// The step that was asked for, s; the step taken is no longer.
+    pub fn asked(&self) -> f64 {
+        self.asked
     }
 
     /// Whether the step taken is shorter than the one asked for, by more than rounding.
     pub fn is_adjusted(&self) -> bool {
-        (self.step() - self.asked).abs() > 2.0 * ROUNDING * self.asked
+        (self.step - self.asked).abs() > 2.0 * ROUNDING * self.asked
     }
 
     /// The time after `done` steps, s.
@@ -79,7 +91,7 @@ impl Clock {
 
     /// The number of steps that end at `t` or before, and the seconds from there to `t`: none where only rounding is between.
     pub fn locate(&self, t: f64) -> (u64, f64) {
-        let nearest = ((t / self.step()).round() as u64).min(self.steps);
+        let nearest = ((t / self.step).round() as u64).min(self.steps);
         let ahead = t - self.time(nearest);
         if ahead.abs() <= ROUNDING * t {
             return (nearest, 0.0);
@@ -99,7 +111,7 @@ mod tests {
     use super::*;
 
     fn steps(until: f64, step: f64) -> u64 {
-        Clock::new(until, step).unwrap().steps
+        Clock::new(until, step).unwrap().steps()
     }
 
     #[test]

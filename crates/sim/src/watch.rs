@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use articulated_fluid::{Scene, scene};
-//! use study::watch::{Sample, Watch};
+//! use sim::{Sample, Watch};
 //!
 //! let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
 //! let (model, start) = (scene.model()?, scene.initial_state()?);
@@ -11,53 +11,10 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
-use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::State;
-use lie::{SO3, Vec3};
+use articulated_fluid::ArticulatedBody;
+use lie::Vec3;
 
-/// What the motion keeps, at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// s.
-    pub t: f64,
-    /// J.
-    pub energy: f64,
-    /// Its kinetic part, J.
-    pub kinetic: f64,
-    /// kg m/s.
-    pub linear: Vec3,
-    /// kg m²/s.
-    pub angular: Vec3,
-    /// The largest $\lVert I - R^T R \rVert_F$ over the bodies.
-    pub orthogonality: f64,
-}
-
-impl Sample {
-    /// The sample of a state; `None` where a quantity is not finite.
-    pub fn take(model: &ArticulatedBody, state: &State<Configuration>) -> Option<Self> {
-        let kept = model.conserved(state).ok()?;
-        Some(Self {
-            t: state.t,
-            energy: kept.energy,
-            kinetic: kept.kinetic,
-            linear: kept.linear,
-            angular: kept.angular,
-            orthogonality: model.orthogonality_error(&state.g),
-        })
-    }
-}
-
-/// The bodies' attitudes, the head's first.
-pub fn attitudes(g: &Configuration) -> impl Iterator<Item = &SO3> {
-    core::iter::once(&g.0).chain(g.2.iter())
-}
-
-/// The largest angular velocity of a body, rad/s; `None` where the state does not fit the model.
-pub(crate) fn fastest_rate(model: &ArticulatedBody, state: &State<Configuration>) -> Option<f64> {
-    let xi = model.velocity(state).ok()?;
-    let rates = core::iter::once(&xi.0).chain(xi.2.iter());
-    Some(rates.map(|omega| omega.vec3().norm()).fold(0.0, f64::max))
-}
+use crate::frame::Sample;
 
 /// What the symmetries of a model leave of the momenta to be kept.
 #[derive(Clone, Copy, Debug)]

@@ -9,43 +9,69 @@ use thiserror::Error;
 
 /// Why a file cannot be written.
 #[derive(Debug, Error)]
-pub enum OutputError {
+#[non_exhaustive]
+pub enum FileError {
+    /// The path is that of a directory.
     #[error("this is a directory; give the name of a file")]
     Directory,
+    /// What is there is a device, a pipe or the like.
     #[error("this is no ordinary file; give the name of a file")]
     Special,
+    /// What is there may not be written.
     #[error("the file is read-only; give another name, or make it writable")]
     ReadOnly,
+    /// The path leads nowhere.
     #[error("the path is of no use: {0}; give another name")]
     Path(#[source] io::Error),
+    /// The directory takes no file.
     #[error(
         "no file can be made in {}: {source}; give a directory that exists and can be written",
         directory.display()
     )]
     Create {
+        /// Where the file was to be made.
         directory: PathBuf,
+        /// Why not.
         source: io::Error,
     },
+    /// Writing failed.
     #[error("the file cannot be written: {0}; nothing was left there")]
     Write(#[from] io::Error),
 }
 
 /// A file in the making: beside its target until [`finish`](Self::finish), and gone without it.
-pub struct Output {
+///
+/// ```
+/// use std::io::Write;
+/// use sim::file::AtomicFile;
+///
+/// let path = std::env::temp_dir().join(format!("lgvi-{}.txt", std::process::id()));
+/// let mut file = AtomicFile::create(&path)?;
+/// file.write_all(b"all of it")?;
+/// assert!(!path.exists());
+/// file.finish()?;
+/// assert_eq!(std::fs::read(&path)?, b"all of it");
+/// # std::fs::remove_file(&path)?;
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+pub struct AtomicFile {
     file: BufWriter<File>,
     temporary: TempPath,
     target: PathBuf,
 }
 
-impl Output {
+impl AtomicFile {
     /// Begins the file at `path`, which stays as it is for now.
-    pub fn create(path: &Path) -> Result<Self, OutputError> {
+    ///
+    /// # Errors
+    /// [`FileError`] of a path that no file can be put at.
+    pub fn create(path: &Path) -> Result<Self, FileError> {
         let target = resolve(path)?;
         let directory = match target.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
-        let file = temporary(directory).map_err(|source| OutputError::Create {
+        let file = temporary(directory).map_err(|source| FileError::Create {
             directory: directory.to_owned(),
             source,
         })?;
@@ -58,7 +84,10 @@ impl Output {
     }
 
     /// Puts the file in its place.
-    pub fn finish(self) -> Result<(), OutputError> {
+    ///
+    /// # Errors
+    /// [`FileError::Write`]; the old file, if any, is as it was.
+    pub fn finish(self) -> Result<(), FileError> {
         let file = self.file.into_inner().map_err(|error| error.into_error())?;
         file.sync_all()?;
         drop(file);
@@ -69,7 +98,7 @@ impl Output {
     }
 }
 
-impl Write for Output {
+impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.file.write(bytes)
     }
@@ -80,33 +109,33 @@ impl Write for Output {
 }
 
 /// Whether two paths lead to one file.
-pub fn same(a: &Path, b: &Path) -> bool {
+pub fn is_same(a: &Path, b: &Path) -> bool {
     matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
 /// The file to replace: behind symbolic links, and one that may be replaced.
-fn resolve(path: &Path) -> Result<PathBuf, OutputError> {
+fn resolve(path: &Path) -> Result<PathBuf, FileError> {
     let text = path.as_os_str().as_encoded_bytes();
     if text.last().is_some_and(|&byte| is_separator(byte.into())) {
-        return Err(OutputError::Directory);
+        return Err(FileError::Directory);
     }
     match fs::metadata(path) {
         Ok(old) => {
             check(&old)?;
-            fs::canonicalize(path).map_err(OutputError::Path)
+            fs::canonicalize(path).map_err(FileError::Path)
         }
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(path.to_owned()),
-        Err(error) => Err(OutputError::Path(error)),
+        Err(error) => Err(FileError::Path(error)),
     }
 }
 
-fn check(old: &Metadata) -> Result<(), OutputError> {
+fn check(old: &Metadata) -> Result<(), FileError> {
     if old.is_dir() {
-        Err(OutputError::Directory)
+        Err(FileError::Directory)
     } else if !old.is_file() {
-        Err(OutputError::Special)
+        Err(FileError::Special)
     } else if old.permissions().readonly() {
-        Err(OutputError::ReadOnly)
+        Err(FileError::ReadOnly)
     } else {
         Ok(())
     }

@@ -1,9 +1,7 @@
 //! When samples are due: every so many steps, or every so many seconds.
 
-use thiserror::Error;
-
-use super::clock::{Clock, MAX_STEPS};
-use super::print::decimal;
+use crate::clock::{Clock, MAX_STEPS};
+use crate::error::{SimError, positive};
 
 /// The rule that samples follow; t = 0 and the end belong to every one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,30 +23,21 @@ pub struct Due {
     pub t: f64,
 }
 
-/// A table of absurdly many samples.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error(
-    "{} s with a sample every {} s are {count:.1e} samples, more than {MAX_STEPS:.0e}; take a longer --every-seconds or a shorter --until",
-    decimal(*until), decimal(*every)
-)]
-pub struct TooManySamples {
-    /// The time to run to, s.
-    pub until: f64,
-    /// The time between samples, s.
-    pub every: f64,
-    /// How many samples that would be.
-    pub count: f64,
-}
-
 impl Schedule {
-    /// Refuses what a run cannot end.
-    pub fn check(&self, clock: &Clock) -> Result<(), TooManySamples> {
-        let Self::Seconds(every) = *self else {
-            return Ok(());
+    /// Refuses what has no end.
+    ///
+    /// # Errors
+    /// [`SimError::NotPositive`], [`SimError::TooManySamples`].
+    pub fn check(&self, clock: &Clock) -> Result<(), SimError> {
+        let every = match *self {
+            Self::Steps(every) => {
+                return positive("number of steps between samples", every as f64).map(drop);
+            }
+            Self::Seconds(every) => positive("time between samples, in seconds,", every)?,
         };
-        let (until, count) = (clock.until, clock.until / every);
+        let (until, count) = (clock.until(), clock.until() / every);
         match count > MAX_STEPS {
-            true => Err(TooManySamples {
+            true => Err(SimError::TooManySamples {
                 until,
                 every,
                 count,
@@ -65,9 +54,9 @@ impl Schedule {
             t: clock.time(steps),
         };
         match *self {
-            Self::Steps(every) => at_step(every.saturating_mul(k).min(clock.steps)),
+            Self::Steps(every) => at_step(every.saturating_mul(k).min(clock.steps())),
             Self::Seconds(every) => match k as f64 * every {
-                t if clock.is_end(t) => at_step(clock.steps),
+                t if clock.is_end(t) => at_step(clock.steps()),
                 t => {
                     let (steps, ahead) = clock.locate(t);
                     Due { steps, ahead, t }
@@ -82,7 +71,7 @@ mod tests {
     use super::*;
 
     fn times(schedule: Schedule, clock: Clock) -> Vec<f64> {
-        let last = |due: &Due| due.steps == clock.steps;
+        let last = |due: &Due| due.steps == clock.steps();
         let mut dues: Vec<_> = (0..)
             .map(|k| schedule.due(&clock, k))
             .take_while(|due| !last(due))

@@ -1,0 +1,137 @@
+//! What a run comes to.
+
+use serde::Serialize;
+
+use crate::choice::Choice;
+use crate::method::Evaluation;
+use crate::schedule::Schedule;
+use crate::simulation::Simulation;
+
+/// What a run has come to so far: cost of the steps, errors of what the motion keeps; units are in the names, or SI.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Report {
+    /// The scene's.
+    pub title: Option<String>,
+    /// How many.
+    pub bodies: usize,
+    /// The group of the model that is stepped.
+    pub group: String,
+    /// The unknowns of a step of the discrete Lagrangian.
+    pub unknowns: usize,
+    /// The reductions that were taken.
+    pub reductions: Vec<&'static str>,
+    /// The method's name.
+    pub method: &'static str,
+    /// What it is.
+    pub method_description: &'static str,
+    /// Its order.
+    pub method_order: u32,
+    /// Steps taken.
+    pub steps: u64,
+    /// The step taken.
+    pub step_seconds: f64,
+    /// The longest step that was to be taken.
+    pub step_asked_seconds: f64,
+    /// The time to run to.
+    pub until_seconds: f64,
+    /// The error that was asked for, in radians and metres.
+    pub accuracy_asked: Option<f64>,
+    /// What a pilot run says of it: the difference from shorter steps over the horizon.
+    pub accuracy_estimate: Option<f64>,
+    /// How far the pilot run went.
+    pub accuracy_horizon_seconds: Option<f64>,
+    /// Of stepping alone, microseconds.
+    pub time_per_step_us: f64,
+    /// Steps between frames.
+    pub sample_every_steps: Option<u64>,
+    /// Time between frames.
+    pub sample_every_seconds: Option<f64>,
+    /// The number of frames.
+    pub samples: u64,
+    /// At t = 0.
+    pub energy_initial_joules: f64,
+    /// The largest error of the energy.
+    pub energy_error_max_joules: f64,
+    /// The same relative to the largest kinetic energy.
+    pub energy_error_max_relative: Option<f64>,
+    /// The slope of that by least squares.
+    pub energy_slope_per_second: Option<f64>,
+    /// Then the linear momentum deviates from its start plus weight times time, and the angular one about the vertical.
+    pub gravity_acts: bool,
+    /// kg m/s.
+    pub linear_momentum_deviation_max: f64,
+    /// kg m²/s.
+    pub angular_momentum_deviation_max: f64,
+    /// The same relative to the start.
+    pub angular_momentum_deviation_max_relative: Option<f64>,
+    /// The largest $\lVert I - R^T R \rVert_F$ of a body.
+    pub orthogonality_error_max: f64,
+    /// The largest residual of a step.
+    pub solver_residual_max: f64,
+    /// The most iterations of a step.
+    pub solver_iterations_max: u32,
+    /// The mean over the steps.
+    pub solver_iterations_mean: f64,
+    /// What an iteration evaluates.
+    pub evaluation: Evaluation,
+    /// The mean over the steps.
+    pub evaluations_per_step_mean: f64,
+}
+
+impl Simulation {
+    /// What the run has come to so far.
+    pub fn report(&self) -> Report {
+        let (account, method, pilot) = (&self.account, self.chosen.method, self.chosen.pilot);
+        let (clock, cost, watch) = (self.run.clock(), self.run.cost(), &self.watch);
+        let steps = cost.steps.max(1) as f64;
+        let iterations = cost.iterations as f64 / steps;
+        let (group, unknowns, reductions) = match self.plan.full {
+            true => (&account.full_group, account.full_dimension, vec![]),
+            false => (&account.group, account.unknowns, account.taken().collect()),
+        };
+        let (every_steps, every_seconds) = match self.plan.schedule {
+            Schedule::Steps(steps) => (Some(steps), None),
+            Schedule::Seconds(seconds) => (None, Some(seconds)),
+        };
+        let accuracy = match self.plan.choice {
+            Choice::Accuracy(accuracy) => Some(accuracy),
+            Choice::Method { .. } => None,
+        };
+        Report {
+            title: self.title.clone(),
+            bodies: self.model.bodies().len(),
+            group: group.clone(),
+            unknowns,
+            reductions,
+            method: method.name(),
+            method_description: method.description(),
+            method_order: method.order(),
+            steps: cost.steps,
+            step_seconds: clock.step(),
+            step_asked_seconds: clock.asked(),
+            until_seconds: clock.until(),
+            accuracy_asked: accuracy,
+            accuracy_estimate: pilot.map(|pilot| pilot.estimate),
+            accuracy_horizon_seconds: pilot.map(|pilot| pilot.horizon),
+            time_per_step_us: cost.time.as_secs_f64() * 1e6 / steps,
+            sample_every_steps: every_steps,
+            sample_every_seconds: every_seconds,
+            samples: watch.count(),
+            energy_initial_joules: watch.initial_energy(),
+            energy_error_max_joules: watch.energy(),
+            energy_error_max_relative: watch.energy_relative(),
+            energy_slope_per_second: watch.energy_slope(),
+            gravity_acts: watch.has_weight(),
+            linear_momentum_deviation_max: watch.linear(),
+            angular_momentum_deviation_max: watch.angular(),
+            angular_momentum_deviation_max_relative: watch.angular_relative(),
+            orthogonality_error_max: watch.orthogonality(),
+            solver_residual_max: cost.residual,
+            solver_iterations_max: cost.most_iterations,
+            solver_iterations_mean: iterations,
+            evaluation: method.evaluation(),
+            evaluations_per_step_mean: iterations * f64::from(method.evaluations_per_iteration()),
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! An integrator on its way: the one loop in which a state advances.
+
+use std::time::{Duration, Instant};
+
+use dvi::{Integrator, State, StepError, StepReport};
+
+use crate::clock::Clock;
+use crate::schedule::Due;
+
+/// An integrator of any group on its way from a start, by a [`Clock`].
+///
+/// ```
+/// use dvi::{Gauss, Lagrangian};
+/// use lie::{Rn, Scalar, Tangent};
+/// use sim::{Clock, Run};
+///
+/// /// A particle of 1 kg on a spring of 1 N/m.
+/// struct Spring;
+///
+/// impl Lagrangian for Spring {
+///     type Group = Rn<1>;
+///     fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+///         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
+///     }
+/// }
+///
+/// let start = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
+/// let clock = Clock::new(5.0, 0.5)?;
+/// let mut run = Run::new(Gauss::<_, 4>::new(Spring.hamiltonian()), start, clock);
+/// run.advance(clock.steps())?;
+/// assert_eq!(run.state().t, 5.0);
+/// assert!((run.state().g.0[0] - 5.0_f64.cos()).abs() < 1e-8);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+pub struct Run<I: Integrator> {
+    integrator: I,
+    clock: Clock,
+    /// The time at the start, s.
+    origin: f64,
+    state: State<I::Group>,
+    cost: Cost,
+}
+
+/// What the steps of a run have cost, and how well they were solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// Of stepping alone, by [`Run::advance`].
+    pub time: Duration,
+    /// Steps taken.
+    pub steps: u64,
+    /// Iterations of the solver.
+    pub iterations: u64,
+    /// The most of a step.
+    pub most_iterations: u32,
+    /// The largest residual of a step, relative as [`StepReport::residual`].
+    pub residual: f64,
+}
+
+impl Cost {
+    fn add(&mut self, report: StepReport) {
+        self.steps += 1;
+        self.iterations += u64::from(report.iterations);
+        self.most_iterations = self.most_iterations.max(report.iterations);
+        self.residual = self.residual.max(report.residual);
+    }
+}
+
+impl<I: Integrator> Run<I> {
+    /// The run at its start.
+    pub fn new(integrator: I, start: State<I::Group>, clock: Clock) -> Self {
+        Self {
+            integrator,
+            clock,
+            origin: start.t,
+            state: start,
+            cost: Cost::default(),
+        }
+    }
+
+    /// The times of the steps, counted from the start.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// The state at the end of the last step.
+    pub fn state(&self) -> &State<I::Group> {
+        &self.state
+    }
+
+    /// What the steps have cost so far.
+    pub fn cost(&self) -> &Cost {
+        &self.cost
+    }
+
+    /// Takes the next step, whether or not the clock ends before.
+    ///
+    /// # Errors
+    /// [`StepError`], and the run is as it was.
+    pub fn step(&mut self) -> Result<(), StepError> {
+        let report = self.integrator.step(&mut self.state, self.clock.step())?;
+        self.cost.add(report);
+        self.state.t = self.origin + self.clock.time(self.cost.steps);
+        Ok(())
+    }
+
+    /// Takes the steps up to number `stop`, and times them.
+    ///
+    /// # Errors
+    /// [`StepError`], and the run is at the end of the last step that was solved.
+    pub fn advance(&mut self, stop: u64) -> Result<(), StepError> {
+        let begin = Instant::now();
+        let solved = (self.cost.steps..stop).try_for_each(|_| self.step());
+        self.cost.time += begin.elapsed();
+        solved
+    }
+
+    /// The state that is due, at the run's place or inside the next step: there it is a shorter step, and the run stays where it is.
+    ///
+    /// # Errors
+    /// As [`Integrator::peek`].
+    pub fn look(&mut self, due: &Due) -> Result<State<I::Group>, StepError> {
+        let mut state = match due.ahead {
+            0.0 => self.state.clone(),
+            ahead => self.integrator.peek(&self.state, ahead)?,
+        };
+        state.t = self.origin + due.t;
+        Ok(state)
+    }
+}

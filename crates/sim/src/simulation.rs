@@ -1,0 +1,194 @@
+//! A scene on its way, from frame to frame.
+
+use articulated_fluid::{Account, ArticulatedBody, Configuration, Scene};
+use dvi::{State, StepError};
+
+use crate::choice::{Choice, Chosen};
+use crate::clock::Clock;
+use crate::error::SimError;
+use crate::frame::Frame;
+use crate::method::{BoxedIntegrator, Method};
+use crate::run::Run;
+use crate::schedule::{Due, Schedule};
+use crate::watch::Watch;
+
+/// The most steps that [`Simulation::advance`] takes at once.
+pub const CHUNK: u64 = 100;
+
+/// How a scene is to be run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// What steps it.
+    pub choice: Choice,
+    /// The time to run to, s.
+    pub until: f64,
+    /// When there are frames.
+    pub schedule: Schedule,
+    /// Takes no reduction: all coordinates are unknowns and all terms are computed.
+    pub full: bool,
+}
+
+impl Default for Plan {
+    /// The default method for 100 s, with a frame every ten steps.
+    fn default() -> Self {
+        Self {
+            choice: Choice::default(),
+            until: 100.0,
+            schedule: Schedule::Steps(10),
+            full: false,
+        }
+    }
+}
+
+/// A run of a scene: an iterator over its frames, from t = 0 to the end.
+///
+/// It owns all that it needs and does nothing between two calls. To stop a run is to call no more: the
+/// [state](Self::state) says where it is. Between two frames may lie many steps; [`advance`](Self::advance) returns after a
+/// [few](CHUNK), so that a caller can show progress, or stop.
+///
+/// ```
+/// use articulated_fluid::{Scene, scene};
+/// use sim::{Choice, Plan, Schedule, Simulation};
+///
+/// let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
+/// let plan = Plan { until: 10.0, schedule: Schedule::Steps(1000), ..Plan::default() };
+/// let mut simulation = Simulation::new(&scene, &plan)?;
+/// let mut is_stopped = false;
+/// while !(simulation.is_done() || is_stopped) {
+///     if let Some(frame) = simulation.advance()? {
+///         println!("{} s: {} J", frame.t(), frame.sample.energy);
+///     }
+///     is_stopped = simulation.steps() >= 1250;
+/// }
+/// assert_eq!((simulation.steps(), simulation.state().t), (1300, 1.3));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+pub struct Simulation {
+    pub(crate) title: Option<String>,
+    pub(crate) account: Account,
+    pub(crate) plan: Plan,
+    pub(crate) chosen: Chosen,
+    pub(crate) model: ArticulatedBody,
+    pub(crate) run: Run<BoxedIntegrator<Configuration>>,
+    pub(crate) watch: Watch,
+    /// The frame at t = 0, until it is given out.
+    first: Option<Frame>,
+    /// The number of the frame after those; none after the end, or a failure.
+    next: Option<u64>,
+}
+
+impl Simulation {
+    /// The run of a scene at t = 0; an accuracy takes a pilot run first.
+    ///
+    /// # Errors
+    /// [`SimError`].
+    pub fn new(scene: &Scene, plan: &Plan) -> Result<Self, SimError> {
+        let (model, smallest) = (scene.model()?, scene.smallest()?);
+        let chosen = plan.choice.resolve(&smallest, plan.until)?;
+        let clock = Clock::new(plan.until, chosen.step)?;
+        plan.schedule.check(&clock)?;
+        let integrator = match plan.full {
+            true => chosen.integrator(model.clone().keep_translation()),
+            false => chosen.integrator_of_smallest(&smallest),
+        };
+        let run = Run::new(integrator, scene.initial_state()?, clock);
+        let start = run.state().clone();
+        let first = Frame::new(&model, start).ok_or(SimError::NotFinite { t: 0.0 })?;
+        Ok(Self {
+            title: scene.title.clone(),
+            account: smallest.account,
+            plan: *plan,
+            chosen,
+            watch: Watch::new(&model, first.sample),
+            model,
+            run,
+            first: Some(first),
+            next: Some(1),
+        })
+    }
+
+    /// The method: what was chosen, or what the pilot run has found.
+    pub fn method(&self) -> Method {
+        self.chosen.method
+    }
+
+    /// The times of the steps.
+    pub fn clock(&self) -> &Clock {
+        self.run.clock()
+    }
+
+    /// The number of steps taken.
+    pub fn steps(&self) -> u64 {
+        self.run.cost().steps
+    }
+
+    /// The state at the end of the last step.
+    pub fn state(&self) -> &State<Configuration> {
+        self.run.state()
+    }
+
+    /// The model of the whole scene, which the frames are measured with, whatever is stepped.
+    pub fn model(&self) -> &ArticulatedBody {
+        &self.model
+    }
+
+    /// Whether no frame is left: all are given out, or one failed.
+    pub fn is_done(&self) -> bool {
+        self.first.is_none() && self.next.is_none()
+    }
+
+    /// Goes on to the next frame, or a [few](CHUNK) steps towards it; `None` where it is not there yet, or none is left.
+    ///
+    /// # Errors
+    /// [`SimError::Step`] and [`SimError::NotFinite`]: then the run is done, and stays at the end of its last step.
+    pub fn advance(&mut self) -> Result<Option<Frame>, SimError> {
+        if let Some(first) = self.first.take() {
+            return Ok(Some(first));
+        }
+        let Some(number) = self.next.take() else {
+            return Ok(None);
+        };
+        let due = self.plan.schedule.due(self.clock(), number);
+        let stop = due.steps.min(self.steps() + CHUNK);
+        self.run
+            .advance(stop)
+            .map_err(|error| self.refused(error))?;
+        if stop < due.steps {
+            self.next = Some(number);
+            return Ok(None);
+        }
+        let frame = self.frame(&due)?;
+        self.watch.add(&frame.sample);
+        self.next = (due.steps < self.clock().steps()).then_some(number + 1);
+        Ok(Some(frame))
+    }
+
+    fn frame(&mut self, due: &Due) -> Result<Frame, SimError> {
+        let state = self.run.look(due).map_err(|error| self.refused(error))?;
+        Frame::new(&self.model, state).ok_or(SimError::NotFinite { t: due.t })
+    }
+
+    fn refused(&self, source: StepError) -> SimError {
+        SimError::Step {
+            step: self.steps(),
+            t: self.state().t,
+            source,
+        }
+    }
+}
+
+impl Iterator for Simulation {
+    type Item = Result<Frame, SimError>;
+
+    /// The next frame, however many steps away.
+    fn next(&mut self) -> Option<Self::Item> {
+        while !self.is_done() {
+            if let Some(frame) = self.advance().transpose() {
+                return Some(frame);
+            }
+        }
+        None
+    }
+}
+
+impl core::iter::FusedIterator for Simulation {}
