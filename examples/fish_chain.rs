@@ -9,10 +9,10 @@ use std::time::Instant;
 
 use articulated_fluid::{ArticulatedBody, Configuration, Conserved, ModelError, Scene};
 use dvi::{Integrator, State, Variational};
+use figure::{Colour, Figure, Line, Panel, Scale, Style};
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::Vec3;
 use study::baseline::{self, Pair, Tolerance};
-use study::figure::{Colour, Figure, Line, Panel, Scale, Style};
 use study::raw;
 
 /// The paper's step, s.

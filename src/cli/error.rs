@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use articulated_fluid::{ModelError, SceneError};
 use dvi::{PilotError, StepError};
-use study::figure::FigureError;
+use figure::FigureError;
 use study::stability::ParameterError;
 use study::work_precision::UnknownReference;
 use thiserror::Error;

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use study::figure::Rendered;
+use figure::Rendered;
 
 use super::error::CliError;
 use super::output::{Output, OutputError, same};

@@ -18,15 +18,12 @@
 //! * [`watch`] — how far a run strays from what the motion keeps;
 //! * [`survey`] — order, energy, momentum maps and symplecticity of any method
 //!   on a test problem, and methods that are wrong on purpose;
-//! * [`figure`] — grids of charts, written as SVG and PNG without any
-//!   font of the system.
 
 pub mod accuracy;
 pub mod baseline;
 pub mod contender;
 pub mod dop853;
 pub mod explicit;
-pub mod figure;
 pub mod methods;
 pub mod on_group;
 pub mod problems;

@@ -2,11 +2,11 @@
 
 use std::collections::HashSet;
 
-use super::layout::LABEL;
-use super::{Colour, Figure, FigureError, Labels, Line, Style, font};
+use crate::layout::LABEL;
+use crate::{Colour, Figure, FigureError, Labels, Line, Style, font};
 
 /// Length of the stroke shown before a name.
-pub(super) const SAMPLE: f64 = 48.0;
+pub(crate) const SAMPLE: f64 = 48.0;
 const AFTER_SAMPLE: f64 = 10.0;
 const BETWEEN: f64 = 42.0;
 const ROW: f64 = 30.0;
@@ -14,13 +14,13 @@ const BELOW: f64 = 8.0;
 
 /// A name, its stroke and where they start.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Entry {
-    pub(super) label: String,
-    pub(super) colour: Colour,
-    pub(super) style: Style,
-    pub(super) left: f64,
+pub(crate) struct Entry {
+    pub(crate) label: String,
+    pub(crate) colour: Colour,
+    pub(crate) style: Style,
+    pub(crate) left: f64,
     /// Middle line.
-    pub(super) y: f64,
+    pub(crate) y: f64,
     width: f64,
 }
 
@@ -39,21 +39,21 @@ impl Entry {
     }
 
     /// Where the name starts.
-    pub(super) fn label_left(&self) -> f64 {
+    pub(crate) fn label_left(&self) -> f64 {
         self.left + SAMPLE + AFTER_SAMPLE
     }
 }
 
 /// Entries in centred rows.
-pub(super) struct Legend {
-    pub(super) entries: Vec<Entry>,
+pub(crate) struct Legend {
+    pub(crate) entries: Vec<Entry>,
     rows: usize,
 }
 
 impl Legend {
     /// The legend of all panels, from `left` over `room`, its first row below
     /// `top`.
-    pub(super) fn new(
+    pub(crate) fn new(
         figure: &Figure,
         (left, room): (f64, f64),
         top: f64,
@@ -73,7 +73,7 @@ impl Legend {
         Ok(Self { entries, rows })
     }
 
-    pub(super) fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         match self.rows {
             0 => 0.0,
             rows => rows as f64 * ROW + BELOW,

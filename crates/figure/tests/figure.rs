@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use study::figure::{
-    Colour, Figure, FigureError, Kind, Line, Mosaic, Panel, Saved, Scale, Style, Tiles,
-};
+use figure::{Colour, Figure, FigureError, Kind, Line, Mosaic, Panel, Saved, Scale, Style, Tiles};
 
 /// A folder of its own, removed at the end.
 struct Folder(PathBuf);

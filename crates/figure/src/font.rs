@@ -4,22 +4,22 @@ use std::sync::OnceLock;
 
 use plotters::style::{FontDesc, FontStyle, register_font};
 
-use super::FigureError;
+use crate::FigureError;
 
-static SUBSET: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+static SUBSET: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 
 /// The bundled font under a name that, in an SVG, lists its stand-ins.
-pub(super) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
+pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// Height of a line of the font (ascent and descent) in ems; the bitmap backend
 /// sizes fonts by it.
-pub(super) const LINE_PER_EM: f64 = 2384.0 / 2048.0;
+pub(crate) const LINE_PER_EM: f64 = 2384.0 / 2048.0;
 
 /// Widths are measured at this many pixels per em, they come as whole pixels.
 const FINE: f64 = 100.0;
 
 /// Makes the font known to the drawing library, once.
-pub(super) fn register() -> Result<(), FigureError> {
+pub(crate) fn register() -> Result<(), FigureError> {
     static DONE: OnceLock<bool> = OnceLock::new();
     let ok = *DONE.get_or_init(|| register_font(FAMILY, FontStyle::Normal, SUBSET).is_ok());
     ok.then_some(())
@@ -27,14 +27,14 @@ pub(super) fn register() -> Result<(), FigureError> {
 }
 
 /// Width of a text whose em is `size`, in the unit of `size`.
-pub(super) fn width(text: &str, size: f64) -> Result<f64, FigureError> {
+pub(crate) fn width(text: &str, size: f64) -> Result<f64, FigureError> {
     let font = FontDesc::new(FAMILY.into(), FINE * LINE_PER_EM, FontStyle::Normal);
     let (pixels, _) = font.box_size(text).map_err(FigureError::draw)?;
     Ok(f64::from(pixels) / FINE * size)
 }
 
 /// A text and a size with which it fits into `room`: smaller at first, then cut.
-pub(super) fn fit(text: &str, size: f64, room: f64) -> Result<(String, f64), FigureError> {
+pub(crate) fn fit(text: &str, size: f64, room: f64) -> Result<(String, f64), FigureError> {
     let natural = width(text, size)?;
     if natural <= room {
         return Ok((text.to_owned(), size));
@@ -44,7 +44,7 @@ pub(super) fn fit(text: &str, size: f64, room: f64) -> Result<(String, f64), Fig
 }
 
 /// As much of a text as fits into `room`, the rest replaced by an ellipsis.
-pub(super) fn cut(text: &str, size: f64, room: f64) -> Result<String, FigureError> {
+pub(crate) fn cut(text: &str, size: f64, room: f64) -> Result<String, FigureError> {
     let mut kept: Vec<char> = text.chars().collect();
     let mut shown = text.to_owned();
     while !kept.is_empty() && width(&shown, size)? > room {
@@ -55,7 +55,7 @@ pub(super) fn cut(text: &str, size: f64, room: f64) -> Result<String, FigureErro
 }
 
 /// A paragraph in lines of at most `room`.
-pub(super) fn wrap(text: &str, size: f64, room: f64) -> Result<Vec<String>, FigureError> {
+pub(crate) fn wrap(text: &str, size: f64, room: f64) -> Result<Vec<String>, FigureError> {
     let mut lines: Vec<String> = vec![];
     for word in text.split_whitespace() {
         let longer = lines.last().map(|line| format!("{line} {word}"));

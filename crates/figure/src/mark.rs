@@ -2,20 +2,20 @@
 
 use core::f64::consts::TAU;
 
-use super::Marker;
-use super::thin::Pixel;
+use crate::Marker;
+use crate::thin::Pixel;
 
 /// From the middle to the rim, in pixels.
 const RADIUS: f64 = 5.0;
 
 /// The outline of a marker that is filled, or the strokes of one that is not.
-pub(super) enum Shape {
+pub(crate) enum Shape {
     Filled(Vec<Pixel>),
     Strokes([[Pixel; 2]; 2]),
 }
 
 /// The marker at a point.
-pub(super) fn shape(marker: Marker, (x, y): Pixel) -> Shape {
+pub(crate) fn shape(marker: Marker, (x, y): Pixel) -> Shape {
     let polygon = |corners: u32, turn: f64, radius: f64| {
         let corner = |k: u32| {
             let angle = TAU * (f64::from(k) / f64::from(corners) + turn);

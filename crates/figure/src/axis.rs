@@ -1,6 +1,6 @@
 //! Ranges, ticks and their labels.
 
-use super::Scale;
+use crate::Scale;
 
 /// Magnitudes beyond are not drawn: their differences would overflow.
 const LARGEST: f64 = 1e300;
@@ -16,28 +16,28 @@ const NARROWEST: f64 = 1e-9;
 
 /// One axis: the coordinate interval it shows and its ticks.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Axis {
+pub(crate) struct Axis {
     scale: Scale,
     low: f64,
     high: f64,
     /// Labelled ticks.
-    pub(super) major: Vec<Tick>,
+    pub(crate) major: Vec<Tick>,
     /// Positions of ticks without label, as fractions of the axis.
-    pub(super) minor: Vec<f64>,
+    pub(crate) minor: Vec<f64>,
     /// Common factor of the labels, such as `×10⁻¹³`.
-    pub(super) factor: Option<String>,
+    pub(crate) factor: Option<String>,
 }
 
 /// A labelled tick.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tick {
+pub(crate) struct Tick {
     /// Position as a fraction of the axis.
-    pub(super) at: f64,
-    pub(super) label: String,
+    pub(crate) at: f64,
+    pub(crate) label: String,
 }
 
 /// The coordinate of a value before it is scaled to the axis.
-pub(super) fn coordinate(scale: Scale, value: f64) -> Option<f64> {
+pub(crate) fn coordinate(scale: Scale, value: f64) -> Option<f64> {
     match scale {
         Scale::Linear => (value.abs() <= LARGEST).then_some(value),
         Scale::Log => (SMALLEST_LOG..=LARGEST)
@@ -49,7 +49,7 @@ pub(super) fn coordinate(scale: Scale, value: f64) -> Option<f64> {
 impl Axis {
     /// An axis over coordinates `low..=high`, `None` if there is nothing on it.
     /// `margin` is the fraction of the range left free at both linear ends.
-    pub(super) fn new(scale: Scale, range: Option<(f64, f64)>, margin: f64, ticks: usize) -> Self {
+    pub(crate) fn new(scale: Scale, range: Option<(f64, f64)>, margin: f64, ticks: usize) -> Self {
         match scale {
             Scale::Linear => linear(range, margin, ticks),
             Scale::Log => logarithmic(range, ticks),
@@ -57,7 +57,7 @@ impl Axis {
     }
 
     /// The position of a value as a fraction of the axis.
-    pub(super) fn place(&self, value: f64) -> Option<f64> {
+    pub(crate) fn place(&self, value: f64) -> Option<f64> {
         coordinate(self.scale, value).map(|c| self.fraction(c))
     }
 

@@ -8,15 +8,15 @@ use plotters::backend::{BitMapBackend, DrawingBackend, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoFont, RGBColor, ShapeStyle, TextStyle};
 
-use super::thin::Pixel;
-use super::{FigureError, Rendered, font, write};
+use crate::thin::Pixel;
+use crate::{FigureError, Rendered, font, write};
 
 /// Grid cells per pixel.
 const SVG_SCALE: u32 = 4;
 const PNG_SCALE: u32 = 3;
 
 /// A backend with its scale and its ways with text.
-pub(super) struct Surface<B> {
+pub(crate) struct Surface<B> {
     backend: B,
     scale: f64,
     /// Font size of the backend per em.
@@ -30,19 +30,19 @@ pub(super) struct Surface<B> {
 }
 
 /// A text to draw, its capitals centred on the vertical position.
-pub(super) struct Text<'a> {
-    pub(super) text: &'a str,
-    pub(super) at: Pixel,
+pub(crate) struct Text<'a> {
+    pub(crate) text: &'a str,
+    pub(crate) at: Pixel,
     /// Size of the em in pixels.
-    pub(super) size: f64,
-    pub(super) align: HPos,
+    pub(crate) size: f64,
+    pub(crate) align: HPos,
     /// Read from bottom to top.
-    pub(super) upright: bool,
-    pub(super) colour: RGBColor,
+    pub(crate) upright: bool,
+    pub(crate) colour: RGBColor,
 }
 
 /// What can be drawn on any backend.
-pub(super) trait Drawing {
+pub(crate) trait Drawing {
     /// Width and height in pixels.
     fn size(&self) -> Pixel;
 
@@ -51,7 +51,7 @@ pub(super) trait Drawing {
 }
 
 /// Both pictures of a drawing.
-pub(super) fn render(drawing: &impl Drawing) -> Result<Rendered, FigureError> {
+pub(crate) fn render(drawing: &impl Drawing) -> Result<Rendered, FigureError> {
     Ok(Rendered {
         svg: svg(drawing)?,
         png: png(drawing)?,
@@ -131,7 +131,7 @@ impl<B: DrawingBackend> Surface<B> {
     }
 
     /// Fills the rectangle between two corners.
-    pub(super) fn fill(&mut self, a: Pixel, b: Pixel, colour: RGBColor) -> Result<(), FigureError> {
+    pub(crate) fn fill(&mut self, a: Pixel, b: Pixel, colour: RGBColor) -> Result<(), FigureError> {
         let (a, b) = (self.grid(a), self.grid(b));
         self.backend
             .draw_rect(a, b, &colour.filled(), true)
@@ -139,7 +139,7 @@ impl<B: DrawingBackend> Surface<B> {
     }
 
     /// Strokes a path of a width in pixels.
-    pub(super) fn stroke(
+    pub(crate) fn stroke(
         &mut self,
         path: &[Pixel],
         colour: RGBColor,
@@ -166,7 +166,7 @@ impl<B: DrawingBackend> Surface<B> {
     }
 
     /// Fills a polygon.
-    pub(super) fn polygon(
+    pub(crate) fn polygon(
         &mut self,
         corners: &[Pixel],
         colour: RGBColor,
@@ -178,7 +178,7 @@ impl<B: DrawingBackend> Surface<B> {
     }
 
     /// Draws a text.
-    pub(super) fn text(&mut self, text: &Text) -> Result<(), FigureError> {
+    pub(crate) fn text(&mut self, text: &Text) -> Result<(), FigureError> {
         let font = (font::FAMILY, text.size * self.size_per_em * self.scale).into_font();
         let drop = self.drop * text.size;
         let (x, y) = text.at;

@@ -1,11 +1,11 @@
 //! No more points than pixels can show.
 
 /// A point of the drawing, in pixels.
-pub(super) type Pixel = (f64, f64);
+pub(crate) type Pixel = (f64, f64);
 
 /// Keeps, of every run of points within one pixel column, the lowest and the
 /// highest, and the two ends of the line.
-pub(super) fn thin(points: impl IntoIterator<Item = Pixel>) -> Vec<Pixel> {
+pub(crate) fn thin(points: impl IntoIterator<Item = Pixel>) -> Vec<Pixel> {
     let mut kept = Vec::new();
     let mut column: Option<Column> = None;
     for point in points {

@@ -1,8 +1,8 @@
 //! Names beside a panel, each led to from the end of its line.
 
-use super::layout::{Cell, LABEL, TICK};
-use super::thin::Pixel;
-use super::{FigureError, Level, Line, Panel, font};
+use crate::layout::{Cell, LABEL, TICK};
+use crate::thin::Pixel;
+use crate::{FigureError, Level, Line, Panel, font};
 
 /// Between the plot and the names: room for the leaders.
 const LEADER: f64 = 46.0;
@@ -12,18 +12,18 @@ const MARK: f64 = 18.0;
 const PITCH: f64 = 1.15 * TICK;
 
 /// A name, and the path that leads to it.
-pub(super) struct End<'a> {
-    pub(super) label: &'a str,
+pub(crate) struct End<'a> {
+    pub(crate) label: &'a str,
     /// Of a line, not of a level.
-    pub(super) line: Option<&'a Line>,
+    pub(crate) line: Option<&'a Line>,
     /// Where its marker stands before the name.
-    pub(super) mark: Pixel,
-    pub(super) leader: [Pixel; 2],
-    pub(super) at: Pixel,
+    pub(crate) mark: Pixel,
+    pub(crate) leader: [Pixel; 2],
+    pub(crate) at: Pixel,
 }
 
 /// What the names take beside the plots of a figure.
-pub(super) fn room<'a>(panels: impl Iterator<Item = &'a Panel>) -> Result<f64, FigureError> {
+pub(crate) fn room<'a>(panels: impl Iterator<Item = &'a Panel>) -> Result<f64, FigureError> {
     let labels = panels.flat_map(|panel| {
         let levels = panel.levels.iter().map(|level| &level.label);
         panel.lines.iter().map(|line| &line.label).chain(levels)
@@ -36,7 +36,7 @@ pub(super) fn room<'a>(panels: impl Iterator<Item = &'a Panel>) -> Result<f64, F
 }
 
 /// The names of a panel's lines and levels, moved apart where they would overlap.
-pub(super) fn ends<'a>(panel: &'a Panel, cell: &Cell) -> Vec<End<'a>> {
+pub(crate) fn ends<'a>(panel: &'a Panel, cell: &Cell) -> Vec<End<'a>> {
     let right = cell.plot.right();
     let line = |line: &'a Line| {
         let end = line.points.iter().rev().find_map(|p| cell.pixel(*p))?;

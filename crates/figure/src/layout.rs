@@ -1,25 +1,25 @@
 //! Where everything goes, in pixels of the finished bitmap.
 
-use super::axis::{Axis, coordinate};
-use super::legend::Legend;
-use super::{Figure, FigureError, Labels, Panel, Scale, ends, font};
+use crate::axis::{Axis, coordinate};
+use crate::legend::Legend;
+use crate::{Figure, FigureError, Labels, Panel, Scale, ends, font};
 
-pub(super) const MAX_COLUMNS: usize = 6;
-pub(super) const MAX_ROWS: usize = 24;
+pub(crate) const MAX_COLUMNS: usize = 6;
+pub(crate) const MAX_ROWS: usize = 24;
 
 /// Text sizes (ems).
-pub(super) const TITLE: f64 = 23.0;
-pub(super) const PANEL_TITLE: f64 = 18.0;
-pub(super) const LABEL: f64 = 16.5;
-pub(super) const TICK: f64 = 15.0;
+pub(crate) const TITLE: f64 = 23.0;
+pub(crate) const PANEL_TITLE: f64 = 18.0;
+pub(crate) const LABEL: f64 = 16.5;
+pub(crate) const TICK: f64 = 15.0;
 
-pub(super) const NOTE: f64 = 13.5;
+pub(crate) const NOTE: f64 = 13.5;
 
 /// Between a tick and its label.
-pub(super) const TICK_GAP: f64 = 9.0;
+pub(crate) const TICK_GAP: f64 = 9.0;
 
 /// Free on all sides.
-pub(super) const EDGE: f64 = 20.0;
+pub(crate) const EDGE: f64 = 20.0;
 const CELL_WIDTH: f64 = 762.0;
 const CELL_GAP: f64 = 36.0;
 const TITLE_BAND: f64 = 36.0;
@@ -36,55 +36,55 @@ const Y_MARGIN: f64 = 0.06;
 
 /// An upright rectangle; `y` grows downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Area {
-    pub(super) left: f64,
-    pub(super) top: f64,
-    pub(super) width: f64,
-    pub(super) height: f64,
+pub(crate) struct Area {
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
 }
 
 impl Area {
-    pub(super) fn right(&self) -> f64 {
+    pub(crate) fn right(&self) -> f64 {
         self.left + self.width
     }
 
-    pub(super) fn bottom(&self) -> f64 {
+    pub(crate) fn bottom(&self) -> f64 {
         self.top + self.height
     }
 
-    pub(super) fn middle(&self) -> (f64, f64) {
+    pub(crate) fn middle(&self) -> (f64, f64) {
         (self.left + self.width / 2.0, self.top + self.height / 2.0)
     }
 }
 
 /// One panel: where it is drawn and what its axes show.
-pub(super) struct Cell {
+pub(crate) struct Cell {
     /// The rectangle inside the axes.
-    pub(super) plot: Area,
+    pub(crate) plot: Area,
     /// Middle line of the title above and of the label below the plot.
-    pub(super) title_y: f64,
-    pub(super) x_label_y: f64,
-    pub(super) tick_label_y: f64,
+    pub(crate) title_y: f64,
+    pub(crate) x_label_y: f64,
+    pub(crate) tick_label_y: f64,
     /// Middle line of the rotated label on the left.
-    pub(super) y_label_x: f64,
-    pub(super) x: Axis,
-    pub(super) y: Axis,
-    pub(super) empty: bool,
+    pub(crate) y_label_x: f64,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) empty: bool,
 }
 
 /// The whole figure.
-pub(super) struct Layout {
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) title_y: f64,
-    pub(super) legend: Legend,
-    pub(super) cells: Vec<Cell>,
+pub(crate) struct Layout {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) title_y: f64,
+    pub(crate) legend: Legend,
+    pub(crate) cells: Vec<Cell>,
     /// Lines of text with their middle lines.
-    pub(super) notes: Vec<(f64, String)>,
+    pub(crate) notes: Vec<(f64, String)>,
 }
 
 impl Layout {
-    pub(super) fn new(figure: &Figure) -> Result<Self, FigureError> {
+    pub(crate) fn new(figure: &Figure) -> Result<Self, FigureError> {
         let columns = figure.columns.min(figure.panels.len());
         let width = 2.0 * EDGE + columns as f64 * (CELL_WIDTH + CELL_GAP) - CELL_GAP;
         let title_height = if figure.title.is_empty() { 0.0 } else { 40.0 };
@@ -208,12 +208,12 @@ impl Cell {
     }
 
     /// The vertical pixel of a value, if it can be placed.
-    pub(super) fn height(&self, y: f64) -> Option<f64> {
+    pub(crate) fn height(&self, y: f64) -> Option<f64> {
         Some(self.plot.bottom() - self.y.place(y)? * self.plot.height)
     }
 
     /// The pixel of a point, if it can be placed.
-    pub(super) fn pixel(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
+    pub(crate) fn pixel(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         let (x, y) = (self.x.place(x)?, self.height(y)?);
         Some((self.plot.left + x * self.plot.width, y))
     }

@@ -56,7 +56,7 @@ pub enum FigureError {
 }
 
 impl FigureError {
-    pub(super) fn draw(reason: impl ToString) -> Self {
+    pub(crate) fn draw(reason: impl ToString) -> Self {
         Self::Draw {
             reason: reason.to_string(),
         }

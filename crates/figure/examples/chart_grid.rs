@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use study::figure::{Colour, Figure, FigureError, Line, Panel, Scale, Style};
+use figure::{Colour, Figure, FigureError, Line, Panel, Scale, Style};
 
 type Curve = fn(f64) -> f64;
 

@@ -5,11 +5,11 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::FigureError;
+use crate::FigureError;
 
 /// Appends an ending to the last part of a path (`set_extension` would replace
 /// what follows a dot in the name).
-pub(super) fn with_ending(stem: &Path, ending: &str) -> Result<PathBuf, FigureError> {
+pub(crate) fn with_ending(stem: &Path, ending: &str) -> Result<PathBuf, FigureError> {
     let ends_in_name = !stem.as_os_str().as_encoded_bytes().ends_with(b"/");
     match stem.file_name() {
         Some(name) if ends_in_name => {
@@ -25,13 +25,13 @@ pub(super) fn with_ending(stem: &Path, ending: &str) -> Result<PathBuf, FigureEr
 }
 
 /// A complete file beside the place where it belongs; removed unless committed.
-pub(super) struct Pending {
+pub(crate) struct Pending {
     temporary: PathBuf,
     path: PathBuf,
 }
 
 impl Pending {
-    pub(super) fn new(path: &Path, content: &[u8]) -> Result<Self, FigureError> {
+    pub(crate) fn new(path: &Path, content: &[u8]) -> Result<Self, FigureError> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let ending = format!("{}-{number}.tmp", std::process::id());
@@ -49,7 +49,7 @@ impl Pending {
         Ok(pending)
     }
 
-    pub(super) fn commit(self) -> Result<(), FigureError> {
+    pub(crate) fn commit(self) -> Result<(), FigureError> {
         fs::rename(&self.temporary, &self.path).map_err(|source| failure(&self.path, source))
     }
 }
@@ -74,7 +74,7 @@ fn failure(path: &Path, source: io::Error) -> FigureError {
 }
 
 /// Encodes rows of red, green and blue bytes.
-pub(super) fn encode_png(pixels: &[u8], (w, h): (u32, u32)) -> Result<Vec<u8>, FigureError> {
+pub(crate) fn encode_png(pixels: &[u8], (w, h): (u32, u32)) -> Result<Vec<u8>, FigureError> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, w, h);
     encoder.set_color(png::ColorType::Rgb);

@@ -13,7 +13,7 @@
 //!
 //! ```no_run
 //! use std::path::Path;
-//! use study::figure::{Colour, Figure, Line, Panel, Scale, Style};
+//! use figure::{Colour, Figure, Line, Panel, Scale, Style};
 //!
 //! let error: Vec<(f64, f64)> = (1..=1000)
 //!     .map(|k| (0.1 * f64::from(k), 1e-13 * f64::from(k).sqrt()))
@@ -38,7 +38,7 @@
 //! };
 //! let saved = figure.save(Path::new("energy"))?;
 //! println!("{} and {}", saved.svg.display(), saved.png.display());
-//! # Ok::<(), study::figure::FigureError>(())
+//! # Ok::<(), figure::FigureError>(())
 //! ```
 
 mod axis;
@@ -78,7 +78,7 @@ impl Colour {
     /// Red, green and blue, 0 to 255 each.
     ///
     /// ```
-    /// # use study::figure::Colour;
+    /// # use figure::Colour;
     /// assert_eq!(Colour::Vermillion.rgb(), (213, 94, 0));
     /// ```
     #[must_use]

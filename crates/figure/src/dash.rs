@@ -1,7 +1,7 @@
 //! Cutting a line into dashes.
 
-use super::Style;
-use super::thin::Pixel;
+use crate::Style;
+use crate::thin::Pixel;
 
 /// A path this many times longer than what it spans fills its panel: dashes
 /// along it would be a haze, so they follow the horizontal axis instead.
@@ -17,7 +17,7 @@ fn pattern(style: Style) -> Option<(f64, f64)> {
 }
 
 /// The strokes that show a path in a style.
-pub(super) fn dash(path: Vec<Pixel>, style: Style) -> Vec<Vec<Pixel>> {
+pub(crate) fn dash(path: Vec<Pixel>, style: Style) -> Vec<Vec<Pixel>> {
     if style == Style::Invisible {
         return vec![];
     }

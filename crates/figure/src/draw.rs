@@ -4,18 +4,18 @@ use plotters::backend::DrawingBackend;
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::HPos;
 
-use super::dash::dash;
-use super::ends::ends;
-use super::layout::{Cell, EDGE, LABEL, Layout, NOTE, PANEL_TITLE, TICK, TICK_GAP, TITLE};
-use super::legend::{Entry, SAMPLE};
-use super::mark::{Shape, shape};
-use super::surface::{Drawing, Surface, Text};
-use super::thin::{Pixel, thin};
-use super::{Colour, Figure, FigureError, Labels, Level, Line, Marker, Panel, Style, font};
+use crate::dash::dash;
+use crate::ends::ends;
+use crate::layout::{Cell, EDGE, LABEL, Layout, NOTE, PANEL_TITLE, TICK, TICK_GAP, TITLE};
+use crate::legend::{Entry, SAMPLE};
+use crate::mark::{Shape, shape};
+use crate::surface::{Drawing, Surface, Text};
+use crate::thin::{Pixel, thin};
+use crate::{Colour, Figure, FigureError, Labels, Level, Line, Marker, Panel, Style, font};
 
-pub(super) const PAPER: RGBColor = RGBColor(255, 255, 255);
-pub(super) const INK: RGBColor = RGBColor(26, 26, 26);
-pub(super) const FRAME: RGBColor = RGBColor(90, 90, 90);
+pub(crate) const PAPER: RGBColor = RGBColor(255, 255, 255);
+pub(crate) const INK: RGBColor = RGBColor(26, 26, 26);
+pub(crate) const FRAME: RGBColor = RGBColor(90, 90, 90);
 const LEADER: RGBColor = RGBColor(170, 170, 170);
 const RULE: RGBColor = RGBColor(229, 229, 229);
 
@@ -76,7 +76,7 @@ fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, on: &mut Surface<B>
     Ok(())
 }
 
-pub(super) fn colour(colour: Colour) -> RGBColor {
+pub(crate) fn colour(colour: Colour) -> RGBColor {
     let (r, g, b) = colour.rgb();
     RGBColor(r, g, b)
 }
@@ -246,7 +246,7 @@ fn beside(factor: Option<&str>) -> Result<f64, FigureError> {
     }
 }
 
-pub(super) fn small<B: DrawingBackend>(
+pub(crate) fn small<B: DrawingBackend>(
     on: &mut Surface<B>,
     text: &str,
     at: Pixel,
@@ -262,7 +262,7 @@ pub(super) fn small<B: DrawingBackend>(
     })
 }
 
-pub(super) fn title<B: DrawingBackend>(
+pub(crate) fn title<B: DrawingBackend>(
     on: &mut Surface<B>,
     text: &str,
     at: Pixel,

@@ -4,11 +4,11 @@ use plotters::backend::DrawingBackend;
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::HPos;
 
-use super::draw::{FRAME, INK, PAPER, colour, small, title};
-use super::layout::{Area, EDGE, LABEL, MAX_COLUMNS, MAX_ROWS, NOTE, PANEL_TITLE, TICK, TITLE};
-use super::surface::{Drawing, Surface, Text, render};
-use super::thin::Pixel;
-use super::{Colour, FigureError, Rendered, font};
+use crate::draw::{FRAME, INK, PAPER, colour, small, title};
+use crate::layout::{Area, EDGE, LABEL, MAX_COLUMNS, MAX_ROWS, NOTE, PANEL_TITLE, TICK, TITLE};
+use crate::surface::{Drawing, Surface, Text, render};
+use crate::thin::Pixel;
+use crate::{Colour, FigureError, Rendered, font};
 
 const WIDTH: f64 = 1600.0;
 const TITLE_BAND: f64 = 40.0;
