@@ -4,7 +4,7 @@
 //! `out/fish_chain.svg` and `out/fish_chain.png`.
 
 use std::error::Error;
-use std::path::Path;
+use std::fs;
 use std::time::Instant;
 
 use articulated_fluid::{ArticulatedBody, Configuration, Conserved, ModelError, Scene};
@@ -47,13 +47,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     kept.report();
     lost.report();
 
-    std::fs::create_dir_all("out")?;
-    let saved = figure(&lost, &kept).save(Path::new("out/fish_chain"))?;
-    println!(
-        "drawn to {} and {}",
-        saved.svg.display(),
-        saved.png.display()
-    );
+    fs::create_dir_all("out")?;
+    let drawn = figure(&lost, &kept).render()?;
+    fs::write("out/fish_chain.svg", drawn.svg)?;
+    fs::write("out/fish_chain.png", drawn.png)?;
+    println!("drawn to out/fish_chain.svg and out/fish_chain.png");
     Ok(())
 }
 

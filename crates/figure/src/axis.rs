@@ -1,6 +1,6 @@
-//! Ranges, ticks and their labels.
+//! The range of an axis, and its ticks.
 
-use crate::Scale;
+use crate::number::{decimals, power_of_ten, ten_to_the};
 
 /// Magnitudes beyond are not drawn: their differences would overflow.
 const LARGEST: f64 = 1e300;
@@ -13,6 +13,34 @@ const SMALLEST: f64 = 1e-280;
 
 /// A range narrower than this, relative to its values, is rounding noise.
 const NARROWEST: f64 = 1e-9;
+
+/// How values of an axis are placed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub enum Scale {
+    /// Proportionally.
+    #[default]
+    Linear,
+    /// By their logarithm; values that are not positive are left out.
+    Log,
+}
+
+impl Scale {
+    /// What is proportional to the place of a value, if it has one.
+    pub(crate) fn coordinate(self, value: f64) -> Option<f64> {
+        match self {
+            Self::Linear => (value.abs() <= LARGEST).then_some(value),
+            Self::Log => (SMALLEST_LOG..=LARGEST)
+                .contains(&value)
+                .then(|| value.log10()),
+        }
+    }
+}
+
+/// The smallest and the largest coordinate of some.
+pub(crate) fn range(coordinates: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+    let both = coordinates.into_iter().map(|c| (c, c));
+    both.reduce(|(low, high), (c, _)| (low.min(c), high.max(c)))
+}
 
 /// One axis: the coordinate interval it shows and its ticks.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,180 +64,115 @@ pub(crate) struct Tick {
     pub(crate) label: String,
 }
 
-/// The coordinate of a value before it is scaled to the axis.
-pub(crate) fn coordinate(scale: Scale, value: f64) -> Option<f64> {
-    match scale {
-        Scale::Linear => (value.abs() <= LARGEST).then_some(value),
-        Scale::Log => (SMALLEST_LOG..=LARGEST)
-            .contains(&value)
-            .then(|| value.log10()),
-    }
-}
-
 impl Axis {
-    /// An axis over coordinates `low..=high`, `None` if there is nothing on it.
+    /// An axis over coordinates `low..=high`, `None` if there is nothing on it, with about so many `ticks`.
     /// `margin` is the fraction of the range left free at both linear ends.
     pub(crate) fn new(scale: Scale, range: Option<(f64, f64)>, margin: f64, ticks: usize) -> Self {
         match scale {
-            Scale::Linear => linear(range, margin, ticks),
-            Scale::Log => logarithmic(range, ticks),
+            Scale::Linear => linear(range.unwrap_or((0.0, 1.0)), margin, ticks),
+            Scale::Log => logarithmic(range.unwrap_or((-1.0, 0.0)), ticks),
+        }
+    }
+
+    fn bare(scale: Scale, (low, high): (f64, f64)) -> Self {
+        Self {
+            scale,
+            low,
+            high,
+            major: vec![],
+            minor: vec![],
+            factor: None,
         }
     }
 
     /// The position of a value as a fraction of the axis.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
-        coordinate(self.scale, value).map(|c| self.fraction(c))
+        self.scale.coordinate(value).map(|c| self.fraction(c))
+    }
+
+    pub(crate) fn labels(&self) -> impl Iterator<Item = &str> {
+        self.major.iter().map(|tick| tick.label.as_str())
     }
 
     fn fraction(&self, coordinate: f64) -> f64 {
         (coordinate - self.low) / (self.high - self.low)
     }
+
+    fn tick(&self, coordinate: f64, label: String) -> Tick {
+        Tick {
+            at: self.fraction(coordinate),
+            label,
+        }
+    }
 }
 
-fn linear(range: Option<(f64, f64)>, margin: f64, ticks: usize) -> Axis {
-    let (low, high) = widen(range.unwrap_or((0.0, 1.0)));
+fn linear(range: (f64, f64), margin: f64, ticks: usize) -> Axis {
+    let (low, high) = widened(range);
     let free = margin * (high - low);
-    let mut axis = Axis {
-        scale: Scale::Linear,
-        low: low - free,
-        high: high + free,
-        major: Vec::new(),
-        minor: Vec::new(),
-        factor: None,
-    };
+    let mut axis = Axis::bare(Scale::Linear, (low - free, high + free));
     let (step, exponent) = nice_step((axis.high - axis.low) / ticks as f64);
     let first = (axis.low / step - 1e-9).ceil();
     let values: Vec<f64> = (0..=2 * ticks)
         .map(|k| (first + k as f64) * step)
         .take_while(|v| *v <= axis.high + 1e-9 * step)
         .collect();
-    let labels;
-    (labels, axis.factor) = decimal_labels(&values, step, exponent);
-    axis.major = ticks_at(&axis, &values, labels);
+    let (labels, factor) = decimals(&values, step, exponent);
+    let ticks = values.iter().zip(labels);
+    axis.major = ticks.map(|(v, label)| axis.tick(*v, label)).collect();
+    axis.factor = factor;
     axis
 }
 
-fn widen((low, high): (f64, f64)) -> (f64, f64) {
+/// A range with room for ticks that differ.
+fn widened((low, high): (f64, f64)) -> (f64, f64) {
     let size = low.abs().max(high.abs());
-    if size < SMALLEST {
-        return (-1.0, 1.0);
-    }
     let missing = NARROWEST * size - (high - low);
-    if missing > 0.0 {
+    if size < SMALLEST {
+        (-1.0, 1.0)
+    } else if high == low {
         // A constant gets room to show that it is one.
-        let room = if high == low {
-            0.1 * size
-        } else {
-            missing / 2.0
-        };
-        return (low - room, high + room);
+        (low - 0.1 * size, high + 0.1 * size)
+    } else if missing > 0.0 {
+        (low - missing / 2.0, high + missing / 2.0)
+    } else {
+        (low, high)
     }
-    (low, high)
 }
 
 /// The nearest (by ratio) of 1, 2 or 5 times a power of ten, and that power.
 fn nice_step(rough: f64) -> (f64, i32) {
     let exponent = rough.log10().floor() as i32;
     let mantissa = rough / power_of_ten(exponent);
-    let (nice, carry) = match mantissa {
-        m if m * m < 2.0 => (1.0, 0),
-        m if m * m < 10.0 => (2.0, 0),
-        m if m * m < 50.0 => (5.0, 0),
+    let (nice, carry) = match mantissa * mantissa {
+        square if square < 2.0 => (1.0, 0),
+        square if square < 10.0 => (2.0, 0),
+        square if square < 50.0 => (5.0, 0),
         _ => (1.0, 1),
     };
     let exponent = exponent + carry;
     (nice * power_of_ten(exponent), exponent)
 }
 
-/// Correctly rounded, unlike a power by multiplication.
-fn power_of_ten(exponent: i32) -> f64 {
-    format!("1e{exponent}").parse().unwrap_or(f64::MIN_POSITIVE)
-}
-
-fn decimal_labels(values: &[f64], step: f64, exponent: i32) -> (Vec<String>, Option<String>) {
-    let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let plain = largest == 0.0 || (1e-3..1e5).contains(&largest);
-    let shift = if plain {
-        0
-    } else {
-        largest.log10().floor() as i32
-    };
-    let decimals = usize::try_from(shift - exponent).unwrap_or(0);
-    let label = |v: &f64| {
-        let shown = if v.abs() < 0.5 * step { 0.0 } else { *v };
-        let scaled = shown / power_of_ten(shift);
-        format!("{scaled:.decimals$}").replace('-', "−")
-    };
-    let factor = (shift != 0).then(|| format!("×{}", ten_to_the(shift)));
-    (values.iter().map(label).collect(), factor)
-}
-
-fn logarithmic(range: Option<(f64, f64)>, ticks: usize) -> Axis {
-    let (low, high) = range.unwrap_or((-1.0, 0.0));
-    let (low, mut high) = (low.floor(), high.ceil());
-    if high <= low {
-        high = low + 1.0;
+/// Whole decades, of which as many are labelled as there are to be ticks.
+fn logarithmic((low, high): (f64, f64), ticks: usize) -> Axis {
+    let low = low.floor();
+    let high = high.ceil().max(low + 1.0);
+    let mut axis = Axis::bare(Scale::Log, (low, high));
+    let decades = low as i32..=high as i32;
+    let count = (high - low) as usize;
+    let stride = count.div_ceil(ticks.max(1)) as i32;
+    let (labelled, plain): (Vec<i32>, Vec<i32>) =
+        decades.clone().partition(|e| e.rem_euclid(stride) == 0);
+    let tick = |e: i32| axis.tick(f64::from(e), ten_to_the(e));
+    let major = labelled.into_iter().map(tick).collect();
+    let mut minor: Vec<f64> = plain.into_iter().map(f64::from).collect();
+    if count <= 4 {
+        let multiples = |e: i32| (2..=9).map(move |m| f64::from(e) + f64::from(m).log10());
+        minor.extend(decades.flat_map(multiples).filter(|c| *c < high));
     }
-    let decades = (high - low) as usize;
-    let stride = decades.div_ceil(ticks.max(1)).max(1);
-    let mut axis = Axis {
-        scale: Scale::Log,
-        low,
-        high,
-        major: Vec::new(),
-        minor: Vec::new(),
-        factor: None,
-    };
-    let exponents: Vec<i32> = (0..=decades).map(|k| low as i32 + k as i32).collect();
-    let (labelled, plain): (Vec<i32>, Vec<i32>) = exponents
-        .iter()
-        .partition(|e| e.rem_euclid(stride as i32) == 0);
-    let values: Vec<f64> = labelled.iter().map(|&e| f64::from(e)).collect();
-    let labels = labelled.iter().map(|&e| ten_to_the(e)).collect();
-    axis.major = ticks_at(&axis, &values, labels);
-    axis.minor = plain.iter().map(|&e| axis.fraction(f64::from(e))).collect();
-    if decades <= 4 {
-        axis.minor.extend(within_decades(&axis, &exponents));
-    }
+    axis.minor = minor.into_iter().map(|c| axis.fraction(c)).collect();
+    axis.major = major;
     axis
-}
-
-/// Positions of the multiples 2 to 9 of the powers of ten.
-fn within_decades(axis: &Axis, exponents: &[i32]) -> Vec<f64> {
-    let multiples = |e: &i32| {
-        let e = f64::from(*e);
-        (2..=9).map(move |m| e + f64::from(m).log10())
-    };
-    let all = exponents.iter().flat_map(multiples);
-    all.filter(|c| *c < axis.high)
-        .map(|c| axis.fraction(c))
-        .collect()
-}
-
-fn ticks_at(axis: &Axis, coordinates: &[f64], labels: Vec<String>) -> Vec<Tick> {
-    let at = coordinates.iter().map(|c| axis.fraction(*c));
-    at.zip(labels)
-        .map(|(at, label)| Tick { at, label })
-        .collect()
-}
-
-/// `10⁻¹³` and the like.
-fn ten_to_the(exponent: i32) -> String {
-    let raised = exponent.to_string();
-    let raised = raised.chars().map(|c| match c {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        '9' => '⁹',
-        _ => '⁰',
-    });
-    std::iter::once('1').chain(['0']).chain(raised).collect()
 }
 
 #[cfg(test)]
@@ -217,7 +180,7 @@ mod tests {
     use super::*;
 
     fn labels(axis: &Axis) -> Vec<&str> {
-        axis.major.iter().map(|t| t.label.as_str()).collect()
+        axis.labels().collect()
     }
 
     #[test]

@@ -1,39 +1,29 @@
 //! Marks at the points of a line.
 
-use core::f64::consts::TAU;
-
-use crate::Marker;
-use crate::thin::Pixel;
-
-/// From the middle to the rim, in pixels.
-const RADIUS: f64 = 5.0;
-
-/// The outline of a marker that is filled, or the strokes of one that is not.
-pub(crate) enum Shape {
-    Filled(Vec<Pixel>),
-    Strokes([[Pixel; 2]; 2]),
+/// What is drawn at each point of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Marker {
+    Circle,
+    Square,
+    Diamond,
+    Triangle,
+    TriangleDown,
+    Plus,
+    Cross,
 }
 
-/// The marker at a point.
-pub(crate) fn shape(marker: Marker, (x, y): Pixel) -> Shape {
-    let polygon = |corners: u32, turn: f64, radius: f64| {
-        let corner = |k: u32| {
-            let angle = TAU * (f64::from(k) / f64::from(corners) + turn);
-            (x + radius * angle.sin(), y - radius * angle.cos())
-        };
-        Shape::Filled((0..corners).map(corner).collect())
-    };
-    let strokes = |a: f64, b: f64| {
-        let ends = |a: f64, b: f64| [(x - a, y - b), (x + a, y + b)];
-        Shape::Strokes([ends(a, b), ends(-b, a)])
-    };
-    match marker {
-        Marker::Circle => polygon(24, 0.0, 0.9 * RADIUS),
-        Marker::Square => polygon(4, 0.125, 1.15 * RADIUS),
-        Marker::Diamond => polygon(4, 0.0, 1.2 * RADIUS),
-        Marker::Triangle => polygon(3, 0.0, 1.2 * RADIUS),
-        Marker::TriangleDown => polygon(3, 0.5, 1.2 * RADIUS),
-        Marker::Plus => strokes(RADIUS, 0.0),
-        Marker::Cross => strokes(0.8 * RADIUS, 0.8 * RADIUS),
+impl Marker {
+    /// The path of the mark, from its middle; it is filled, and stroked two pixels wide.
+    pub(crate) fn outline(self) -> &'static str {
+        match self {
+            Self::Circle => "m-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
+            Self::Square => "m-3.1-3.1h6.2v6.2h-6.2z",
+            Self::Diamond => "m0-4.8l4.8 4.8-4.8 4.8-4.8-4.8z",
+            Self::Triangle => "m0-4.6l4 6.9h-8z",
+            Self::TriangleDown => "m0 4.6l4-6.9h-8z",
+            Self::Plus => "m-5 0h10m-5-5v10",
+            Self::Cross => "m-4-4l8 8m0-8l-8 8",
+        }
     }
 }
