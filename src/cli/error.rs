@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use articulated_fluid::{ModelError, SceneError};
+#[cfg(feature = "chart")]
+use figure::FigureError;
 use sim::SimError;
 use sim::file::FileError;
 #[cfg(feature = "chart")]
-use study::{figure::FigureError, stability::ParameterError, work_precision::UnknownReference};
+use study::{stability::ParameterError, work_precision::UnknownReference};
 use thiserror::Error;
 
 /// The exit code of a run or a write that failed.

@@ -3,8 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use figure::Rendered;
 use sim::file::{AtomicFile, FileError, is_same};
-use study::figure::Rendered;
 
 use super::error::CliError;
 

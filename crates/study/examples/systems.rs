@@ -9,7 +9,7 @@ mod picture;
 mod table;
 
 use std::error::Error;
-use std::path::Path;
+use std::fs;
 use std::thread;
 
 use dvi::{Lagrangian, Quadrature};
@@ -124,12 +124,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     println!("{}", table::steady()?);
     println!("{}", table::wrong(&top, plan)?);
-    std::fs::create_dir_all("out")?;
-    let saved = picture::figure(&runs)?.save(Path::new("out/systems"))?;
-    println!(
-        "drawn to {} and {}",
-        saved.svg.display(),
-        saved.png.display()
-    );
+    fs::create_dir_all("out")?;
+    let drawn = picture::figure(&runs)?.render()?;
+    fs::write("out/systems.svg", drawn.svg)?;
+    fs::write("out/systems.png", drawn.png)?;
+    println!("drawn to out/systems.svg and out/systems.png");
     Ok(())
 }

@@ -10,12 +10,9 @@
 //! * [`stability`] — in which steps each of them fails, how, and at which wall;
 //! * [`survey`] — order, energy, momentum maps and symplecticity of any method
 //!   on a test problem, and methods that are wrong on purpose;
-//! * [`figure`] — grids of charts, written as SVG and PNG without any
-//!   font of the system.
 
 pub mod baseline;
 pub mod contender;
-pub mod figure;
 pub mod problems;
 pub mod stability;
 pub mod survey;

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use dvi::{Integrator, Lagrangian, State};
+use figure::{Colour, Figure, Line, Panel, Scale, Style};
 use lie::{RealGroup, SE3, SO3, Vec3};
 use study::baseline::{Tolerance, on_group};
-use study::figure::{Colour, Figure, Line, Panel, Scale, Style};
 use study::problems::{Problem, ProblemError};
 use study::survey::{LongRun, SurveyError, systems};
 

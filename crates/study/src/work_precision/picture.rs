@@ -3,7 +3,7 @@
 use super::cheapest::frontier;
 use super::{Choice, Curve, Measured, Point, Reference};
 use crate::contender::{Contender, Control, Kind, Problem};
-use crate::figure::{Colour, Figure, Labels, Level, Line, Marker, Panel, Scale, Style};
+use figure::{Colour, Figure, Labels, Level, Line, Marker, Panel, Scale, Style};
 
 /// Where failed runs are drawn, above the largest attitude error there is.
 const FAILED_ATTITUDE: f64 = 30.0;

@@ -1,10 +1,9 @@
-//! The baselines, the test problems, the figures, and what the methods show on systems: one program, for what they share is
+//! The baselines, the test problems, and what the methods show on systems: one program, for what they share is
 //! compiled once.
 
 mod baseline;
 mod common;
 mod contenders;
-mod figure;
 mod hard;
 mod laws;
 mod problems;

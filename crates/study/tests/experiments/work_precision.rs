@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
+use figure::{Labels, Marker};
 use study::contender::{Problem, Setting};
-use study::figure::{Labels, Marker};
 use study::work_precision::{
     Curve, Measured, Point, Reference, Sweep, Timing, cheapest, csv, picture,
 };

@@ -1,9 +1,8 @@
-//! Why a figure was not written.
+//! Why a figure was not drawn.
 
-use std::io;
-use std::path::PathBuf;
+use core::error::Error;
 
-/// Failure of [`Figure::save`](super::Figure::save).
+/// Failure of [`Figure::render`](crate::Figure::render) or [`Mosaic::render`](crate::Mosaic::render).
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
@@ -33,32 +32,18 @@ pub enum FigureError {
         /// The height asked for.
         height: f64,
     },
-    /// The path to write to does not end in a file name.
-    #[error("the path {} does not end in a file name: give the files a name", path.display())]
-    NoFileName {
-        /// The path given.
-        path: PathBuf,
-    },
-    /// A file could not be written.
-    #[error("cannot write {}: {source}; check that its folder exists and is writable", path.display())]
-    Write {
-        /// The file that was to be written.
-        path: PathBuf,
-        /// What the system answered.
-        source: io::Error,
-    },
-    /// The drawing library failed.
-    #[error("drawing failed: {reason}; this is a defect, report it with the data drawn")]
+    /// The SVG could not be made a bitmap.
+    #[error("drawing failed: {source}; this is a defect, report it with the data drawn")]
     Draw {
-        /// What the library answered.
-        reason: String,
+        /// What the rasteriser or the encoder answered.
+        source: Box<dyn Error + Send + Sync>,
     },
 }
 
 impl FigureError {
-    pub(super) fn draw(reason: impl ToString) -> Self {
+    pub(crate) fn draw(source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self::Draw {
-            reason: reason.to_string(),
+            source: source.into(),
         }
     }
 }

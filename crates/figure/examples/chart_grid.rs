@@ -1,9 +1,11 @@
 //! Eight panels of made-up data, drawn into the temporary folder (or to the
 //! stem given as argument).
 
+use std::error::Error;
+use std::fs;
 use std::path::PathBuf;
 
-use study::figure::{Colour, Figure, FigureError, Line, Panel, Scale, Style};
+use figure::{Colour, Figure, Line, Panel, Scale, Style};
 
 type Curve = fn(f64) -> f64;
 
@@ -111,7 +113,7 @@ fn panels() -> Vec<Panel> {
     ]
 }
 
-fn main() -> Result<(), FigureError> {
+fn main() -> Result<(), Box<dyn Error>> {
     let stem = std::env::args_os()
         .nth(1)
         .map_or_else(|| std::env::temp_dir().join("chart-grid"), PathBuf::from);
@@ -121,7 +123,9 @@ fn main() -> Result<(), FigureError> {
         panels: panels(),
         ..Figure::default()
     };
-    let saved = figure.save(&stem)?;
-    println!("{}\n{}", saved.svg.display(), saved.png.display());
+    let drawn = figure.render()?;
+    fs::write(stem.with_extension("svg"), drawn.svg)?;
+    fs::write(stem.with_extension("png"), drawn.png)?;
+    println!("drawn to {}, as .svg and .png", stem.display());
     Ok(())
 }

@@ -1,37 +1,11 @@
-//! Figures on disk: complete, small, readable, and refused with a reason.
+//! What is drawn: complete, small, readable, the same twice, and refused with a reason.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use study::figure::{
-    Colour, Figure, FigureError, Kind, Line, Mosaic, Panel, Saved, Scale, Style, Tiles,
+use figure::{
+    Colour, Figure, FigureError, Kind, Labels, Level, Line, Marker, Mosaic, Panel, Rendered, Scale,
+    Style, Tiles,
 };
-
-/// A folder of its own, removed at the end.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("study-{name}-{}", std::process::id()));
-        fs::create_dir_all(&path).expect("a temporary folder");
-        Self(path)
-    }
-
-    fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).expect("the folder").flatten();
-        let mut names: Vec<_> = entries
-            .map(|e| e.file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
+use resvg::tiny_skia::Pixmap;
+use resvg::usvg::{Options, Tree};
 
 fn line(label: &str, style: Style, points: Vec<(f64, f64)>) -> Line {
     let colour = match style {
@@ -85,23 +59,36 @@ fn smooth(phase: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-fn saved(figure: &Figure, folder: &Folder) -> Saved {
-    figure.save(&folder.0.join("chart")).expect("a figure")
+/// The SVG of a picture that obeys the laws of all: the bitmap is the SVG's, and something is drawn on it.
+fn lawful(drawn: Rendered) -> (String, (u32, u32)) {
+    let Rendered { svg, png } = drawn;
+    let mut options = Options::default();
+    let font = include_bytes!("../assets/DejaVuSans-subset.ttf");
+    options.fontdb_mut().load_font_data(font.to_vec());
+    let tree = Tree::from_str(&svg, &options).expect("an SVG document");
+    let bitmap = Pixmap::decode_png(&png).expect("a PNG");
+    let size = (bitmap.width(), bitmap.height());
+    let exact = tree.size().to_int_size();
+    assert_eq!(size, (exact.width(), exact.height()));
+    let (width, height) = size;
+    assert!(svg.starts_with(&format!("<svg width=\"{width}\" height=\"{height}\"")));
+    assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    let mut again = Pixmap::new(width, height).expect("a bitmap");
+    resvg::render(&tree, Default::default(), &mut again.as_mut());
+    assert!(again == bitmap, "the bitmap is the SVG's");
+    let white = |pixel: &u8| *pixel == 255;
+    assert!(!bitmap.data().iter().all(white), "something is drawn");
+    let opaque = bitmap.pixels().iter().all(|pixel| pixel.alpha() == 255);
+    assert!(opaque, "on paper");
+    (svg, size)
 }
 
-fn png_size(path: &Path) -> (u32, u32) {
-    let bytes = fs::read(path).expect("the bitmap");
-    let decoder = png::Decoder::new(bytes.as_slice());
-    let mut reader = decoder.read_info().expect("a PNG");
-    let mut pixels = vec![0; reader.output_buffer_size()];
-    let info = reader.next_frame(&mut pixels).expect("whole");
-    assert!(pixels.iter().any(|p| *p != 255), "something is drawn");
-    (info.width, info.height)
+fn svg(figure: &Figure) -> String {
+    lawful(figure.render().expect("a figure")).0
 }
 
 #[test]
 fn eight_panels_of_noise_stay_small() {
-    let folder = Folder::new("noise");
     let panels = (0..8).map(|k| {
         let seeds = (0..3).map(f64::from);
         let ours = seeds
@@ -118,19 +105,16 @@ fn eight_panels_of_noise_stay_small() {
             ours.chain(theirs).collect(),
         )
     });
-    let saved = saved(&figure(2, panels.collect()), &folder);
-    let svg = fs::read_to_string(&saved.svg).unwrap();
+    let figure = figure(2, panels.collect());
+    let (svg, (width, height)) = lawful(figure.render().unwrap());
     assert!(svg.len() < 1_000_000, "{} bytes", svg.len());
-    let (width, height) = png_size(&saved.png);
     assert_eq!(width, 1600);
     assert!((1400..1700).contains(&height));
-    assert!(svg.starts_with(&format!("<svg width=\"{width}\" height=\"{height}\"")));
-    assert_eq!(folder.names(), ["chart.png", "chart.svg"]);
+    assert_eq!(svg.matches("stroke-dasharray=\"9 5.5\"").count(), 8 * 3 + 1);
 }
 
 #[test]
 fn one_legend_names_every_kind_of_line_once() {
-    let folder = Folder::new("legend");
     let lines = || {
         vec![
             line("one", Style::Solid, vec![(0.0, 0.0), (1.0, 1.0)]),
@@ -140,16 +124,14 @@ fn one_legend_names_every_kind_of_line_once() {
         ]
     };
     let panels = ["p", "q", "r"].map(|t| panel(t, Scale::Linear, lines()));
-    let saved = saved(&figure(3, panels.to_vec()), &folder);
-    let svg = fs::read_to_string(saved.svg).unwrap();
-    assert_eq!(svg.matches(">\none\n<").count(), 1);
-    assert_eq!(svg.matches(">\ntwo &amp; &lt;three&gt;\n<").count(), 1);
+    let svg = svg(&figure(3, panels.to_vec()));
+    assert_eq!(svg.matches(">one<").count(), 1);
+    assert_eq!(svg.matches(">two &amp; &lt;three&gt;<").count(), 1);
     assert!(svg.contains("sans-serif"));
 }
 
 #[test]
 fn values_that_cannot_be_placed_are_left_out() {
-    let folder = Folder::new("holes");
     let bad = vec![
         (0.0, 0.0),
         (f64::NAN, 1.0),
@@ -180,17 +162,13 @@ fn values_that_cannot_be_placed_are_left_out() {
             vec![line("d", Style::Solid, vec![(1.0, 1.0)])],
         ),
     ];
-    let saved = saved(&figure(2, panels), &folder);
-    let svg = fs::read_to_string(&saved.svg).unwrap();
+    let svg = svg(&figure(2, panels));
     assert_eq!(svg.matches("no data").count(), 2);
-    assert!(!svg.contains("NaN") && !svg.contains("inf"));
     assert!(svg.contains("10⁻¹⁶") && svg.contains("10⁻¹²"));
-    png_size(&saved.png);
 }
 
 #[test]
 fn long_texts_do_not_leave_the_figure() {
-    let folder = Folder::new("long");
     let long = "words and more words ".repeat(40);
     let mut panel = panel(
         &long,
@@ -201,60 +179,70 @@ fn long_texts_do_not_leave_the_figure() {
     panel.y_label.clone_from(&long);
     let mut figure = figure(1, vec![panel]);
     figure.title.clone_from(&long);
-    let svg = fs::read_to_string(saved(&figure, &folder).svg).unwrap();
+    let svg = svg(&figure);
     assert!(!svg.contains(&long));
     assert!(svg.matches('…').count() >= 5);
     assert!(svg.contains("×10⁻¹³") && svg.contains("×10⁷"));
 }
 
 #[test]
-fn a_dot_in_the_name_is_kept_and_files_are_replaced() {
-    let folder = Folder::new("names");
-    let one = figure(1, vec![panel("p", Scale::Linear, vec![])]);
-    let stem = folder.0.join("fig2.v1");
-    fs::write(folder.0.join("fig2.v1.svg"), "old").unwrap();
-    let saved = one.save(&stem).unwrap();
-    assert_eq!(folder.names(), ["fig2.v1.png", "fig2.v1.svg"]);
-    assert!(fs::read_to_string(saved.svg).unwrap().ends_with("</svg>\n"));
+fn what_cannot_be_drawn_is_named() {
+    let one = || vec![panel("p", Scale::Linear, vec![])];
+    let refusal = |figure: Figure| figure.render().expect_err("a refusal");
+    assert!(matches!(refusal(figure(1, vec![])), FigureError::NoPanel));
+    assert!(matches!(refusal(figure(0, one())), FigureError::NoColumn));
+    let wide = figure(99, vec![panel("p", Scale::Linear, vec![]); 20]);
+    assert!(matches!(
+        refusal(wide),
+        FigureError::TooLarge { columns: 20, .. }
+    ));
+    for plot_height in [0.0, -1.0, 2001.0, f64::NAN] {
+        let figure = Figure {
+            plot_height,
+            ..figure(1, one())
+        };
+        let error = refusal(figure);
+        assert!(matches!(error, FigureError::PlotHeight { .. }), "{error}");
+    }
 }
 
 #[test]
-fn what_cannot_be_drawn_or_written_is_named() {
-    let folder = Folder::new("errors");
-    let one = || vec![panel("p", Scale::Linear, vec![])];
-    let stem = folder.0.join("chart");
-    let save = |f: Figure, stem: &Path| f.save(stem).expect_err("a refusal");
-
-    assert!(matches!(
-        save(figure(1, vec![]), &stem),
-        FigureError::NoPanel
-    ));
-    assert!(matches!(
-        save(figure(0, one()), &stem),
-        FigureError::NoColumn
-    ));
-    assert!(matches!(
-        save(
-            figure(99, vec![panel("p", Scale::Linear, vec![]); 20]),
-            &stem
-        ),
-        FigureError::TooLarge { columns: 20, .. }
-    ));
-    for nameless in ["/", "..", "folder/"] {
-        let error = save(figure(1, one()), Path::new(nameless));
-        assert!(
-            matches!(error, FigureError::NoFileName { .. }),
-            "{nameless}"
-        );
+fn marked_lines_are_named_at_their_ends() {
+    let marked = |label: &str, marker, y| Line {
+        marker: Some(marker),
+        ..line(label, Style::Dashed, vec![(1.0, 1.0), (2.0, y)])
+    };
+    let panel = Panel {
+        levels: vec![Level {
+            label: "limit".into(),
+            y: 3.0,
+        }],
+        lines: vec![
+            marked("one", Marker::Circle, 2.0),
+            marked("two", Marker::Cross, 2.0),
+        ],
+        ..panel("p", Scale::Log, vec![])
+    };
+    let figure = Figure {
+        labels: Labels::Ends,
+        notes: vec!["a note ".repeat(50)],
+        ..figure(1, vec![panel])
+    };
+    let svg = svg(&figure);
+    for name in ["one", "two", "limit"] {
+        assert_eq!(svg.matches(&format!(">{name}<")).count(), 1, "{name}");
     }
-    let error = save(figure(1, one()), &folder.0.join("absent/chart"));
-    assert!(matches!(error, FigureError::Write { .. }), "{error}");
+    // The names, and lines of the note.
+    assert!(svg.matches("text-anchor=\"start\"").count() >= 3 + 3);
+    assert_eq!(figure.render().unwrap(), figure.render().unwrap());
+}
 
-    // A folder in the way of one file: nothing half-done stays behind.
-    fs::create_dir(folder.0.join("chart.svg")).unwrap();
-    let error = save(figure(1, one()), &stem);
-    assert!(matches!(error, FigureError::Write { .. }), "{error}");
-    assert_eq!(folder.names(), ["chart.svg"]);
+#[test]
+fn any_text_is_drawn() {
+    let text = "a\0b\u{1}c\td\u{ffff}\u{7f}\"&amp;<!--]]>汉🐟\u{202e}";
+    let mut panel = panel(text, Scale::Linear, vec![line(text, Style::Solid, vec![])]);
+    panel.y_label = text.into();
+    svg(&figure(1, vec![panel]));
 }
 
 fn mosaic(maps: usize) -> Mosaic {
@@ -285,11 +273,12 @@ fn mosaic(maps: usize) -> Mosaic {
 
 #[test]
 fn a_mosaic_has_every_map_and_refuses_none() {
-    let drawn = mosaic(3).render().unwrap();
+    let (svg, _) = lawful(mosaic(3).render().unwrap());
     for text in ["maps", "map 2", "good", "0.4", "h [s]", "a note"] {
-        assert!(drawn.svg.contains(text), "{text}");
+        assert!(svg.contains(text), "{text}");
     }
-    assert!(drawn.png.len() > 1000);
+    // The paper, the legend, and of each map six tiles fit.
+    assert_eq!(svg.matches("<rect").count(), 1 + 2 + 3 * 6);
     assert!(matches!(mosaic(0).render(), Err(FigureError::NoPanel)));
     let none = Mosaic {
         columns: 0,

@@ -1,0 +1,112 @@
+//! One chart: curves over two axes, and their names.
+
+use crate::axis::{Axis, Scale, range};
+use crate::colour::FRAME;
+use crate::line::{DASHES, Line};
+use crate::page::{LABEL, PANEL_TITLE, TICK};
+use crate::plot::Plot;
+use crate::svg::{Pen, Svg, Text};
+use crate::{Labels, ends, font};
+
+/// Above the plot, for the title.
+pub(crate) const ABOVE: f64 = 36.0;
+/// Below the plot, for its ticks and the label of the axis.
+pub(crate) const BELOW: f64 = 54.0;
+
+const X_TICKS: usize = 7;
+const Y_TICKS: usize = 6;
+const Y_MARGIN: f64 = 0.06;
+
+/// A named height across a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Printed at its right end where lines are named at their [`Ends`](Labels::Ends), nowhere else.
+    pub label: String,
+    /// In the unit of the axis.
+    pub y: f64,
+}
+
+/// One chart of the grid.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Panel {
+    /// Printed above the chart.
+    pub title: String,
+    /// Quantity and unit of the horizontal axis.
+    pub x_label: String,
+    /// Scale of the horizontal axis.
+    pub x_scale: Scale,
+    /// Quantity and unit of the vertical axis.
+    pub y_label: String,
+    /// Scale of the vertical axis.
+    pub y_scale: Scale,
+    /// Drawn dashed, below the curves.
+    pub levels: Vec<Level>,
+    /// Curves, the first one at the bottom.
+    pub lines: Vec<Line>,
+}
+
+impl Panel {
+    /// Axes over all that can be placed: the horizontal and the vertical one.
+    pub(crate) fn axes(&self) -> (Axis, Axis) {
+        // A zero on a logarithmic axis is not drawn, but its time counts.
+        let points = self.lines.iter().flat_map(|line| &line.points);
+        let points = points.filter(|(_, y)| Scale::Linear.coordinate(*y).is_some());
+        let points = points.filter_map(|(x, y)| Some((self.x_scale.coordinate(*x)?, *y)));
+        let times = points.clone().map(|(x, _)| x);
+        let levels = self.levels.iter().map(|level| level.y);
+        let heights = points.map(|(_, y)| y).chain(levels);
+        let heights = heights.filter_map(|y| self.y_scale.coordinate(y));
+        (
+            Axis::new(self.x_scale, range(times), 0.0, X_TICKS),
+            Axis::new(self.y_scale, range(heights), Y_MARGIN, Y_TICKS),
+        )
+    }
+
+    /// Draws the panel, whose left end is `left`, and whose right end is `right`.
+    pub(crate) fn draw(&self, svg: &mut Svg, plot: &Plot, labels: Labels, [left, right]: [f64; 2]) {
+        plot.draw_rules(svg);
+        let pen = Pen {
+            colour: FRAME,
+            width: 1.0,
+            dashes: DASHES,
+        };
+        for y in self.levels.iter().filter_map(|level| plot.height(level.y)) {
+            svg.stroke(&plot.level(y), pen);
+        }
+        if labels == Labels::Ends {
+            ends::draw(svg, self, plot, right);
+        }
+        for line in &self.lines {
+            line.draw(svg, plot);
+        }
+        plot.draw_frame(svg);
+        self.draw_names(svg, plot, left);
+    }
+
+    fn draw_names(&self, svg: &mut Svg, plot: &Plot, left: f64) {
+        let area = &plot.area;
+        let (x, y) = area.middle();
+        let (above, below) = (area.top - ABOVE / 2.0 + 2.0, area.bottom() + BELOW - 10.0);
+        let title = Text::new(&self.title, (x, above), PANEL_TITLE);
+        svg.text(&title.within(area.width - 2.0 * beside(&plot.y)));
+        let label = Text::new(&self.x_label, (x, below), LABEL);
+        svg.text(&label.within(area.width - 2.0 * beside(&plot.x)));
+        let label = Text::new(&self.y_label, (left + LABEL / 2.0 + 2.0, y), LABEL);
+        svg.text(&label.upright().within(area.height + 40.0));
+        if let Some(factor) = &plot.y.factor {
+            svg.text(&Text::new(factor, (area.left, above + 4.0), TICK).starting());
+        }
+        if let Some(factor) = &plot.x.factor {
+            svg.text(&Text::new(factor, (area.right(), below), TICK).ending());
+        }
+        if self.lines.iter().all(|line| line.pixels(plot).is_empty()) {
+            svg.text(&Text::new("no data", (x, y), LABEL).within(area.width));
+        }
+    }
+}
+
+/// What the factor of an axis takes at one end of a centred text.
+fn beside(axis: &Axis) -> f64 {
+    let factor = axis.factor.as_deref();
+    factor.map_or(0.0, |factor| font::width(factor, TICK) + 12.0)
+}
