@@ -32,7 +32,7 @@ impl<G: RealGroup, S: Scalar> Balance<G, S> {
 
     #[inline(always)]
     pub(crate) fn retract<R: Retraction>(&mut self, c: &AlgebraOver<G, S>) {
-        R::retract_into::<Over<G, S>>(c, &mut self.f);
+        Over::<G, S>::retract_into::<R>(c, &mut self.f);
     }
 
     /// Fills all fields from `f`.

@@ -1,6 +1,6 @@
 //! Dual copies of group elements, moved along the basis of the algebra in chunks.
 
-use lie::{AlgebraOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
+use lie::{AlgebraOver, Cayley, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 use num_traits::Zero;
 
 /// Calls `body` with the first direction of every chunk.
@@ -99,6 +99,6 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
 
     fn step_along(&mut self, first: usize) {
         lie::seed(&mut self.zeta, first);
-        Over::<G, S::Jet>::cayley_into(&self.zeta, &mut self.small);
+        Over::<G, S::Jet>::retract_into::<Cayley>(&self.zeta, &mut self.small);
     }
 }

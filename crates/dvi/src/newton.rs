@@ -2,7 +2,9 @@
 
 use core::ops::Range;
 
-use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
+use lie::{
+    AlgebraOver, Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace,
+};
 
 use crate::balance::Balance;
 use crate::degenerate::without_inertia;
@@ -166,7 +168,7 @@ impl<G: RealGroup> Newton<G> {
             h,
             ..
         } = self;
-        R::retract_into::<G>(c, f);
+        G::retract_into::<R>(c, f);
         matrix.index(|column, out| {
             end.read(column);
             f.inverse_coadjoint_into(end, start);
@@ -207,7 +209,7 @@ fn inertia<L: DiscreteLagrangian>(
     let (t, step) = (J::constant(state.t), J::constant(h));
     for_each_chunk(dim, |first| {
         lie::seed(&mut c, first);
-        Over::<L::Group, J>::cayley_into(&c, &mut f);
+        Over::<L::Group, J>::retract_into::<Cayley>(&c, &mut f);
         lagrangian.derivatives(t, &g, &f, step, &mut derivatives);
         for column in first..dim.min(first + lie::JET_DIRECTIONS) {
             for row in 0..dim {

@@ -237,7 +237,7 @@ impl<G: RealGroup> Varied<G> {
             self.force
                 .set(i, along(&|variation| variation.force.get(i)));
         }
-        Cayley::retract_into::<Over<G, J>>(&eta, &mut self.turn);
+        Over::<G, J>::retract_into::<Cayley>(&eta, &mut self.turn);
         self.g = state.g.lift::<J>().compose(&self.turn);
     }
 

@@ -4,8 +4,6 @@
 
 use core::array::from_fn;
 
-use num_traits::Zero;
-
 use crate::{
     LieGroup, NotUnique, OutsideChart, Over, Power, Retraction, Scalar, Units, VectorSpace,
 };
@@ -106,10 +104,6 @@ macro_rules! tuple {
                 $(self.$i.set_sum(&x.$i, a, &y.$i);)+
             }
             #[inline(always)]
-            fn norm_squared(&self) -> f64 {
-                0.0 $(+ self.$i.norm_squared())+
-            }
-            #[inline(always)]
             fn max_magnitude(&self) -> f64 {
                 [$(self.$i.max_magnitude()),+]
                     .into_iter()
@@ -172,14 +166,6 @@ macro_rules! tuple {
                 $(self.$i.units(units);)+
             }
             #[inline(always)]
-            fn identity_like(&self) -> Self {
-                ($(self.$i.identity_like(),)+)
-            }
-            #[inline(always)]
-            fn pair(mu: &Self::Dual, xi: &Self::Algebra) -> S {
-                S::zero() $(+ $G::pair(&mu.$i, &xi.$i))+
-            }
-            #[inline(always)]
             fn coadjoint(&self, mu: &Self::Dual) -> Self::Dual {
                 ($(self.$i.coadjoint(&mu.$i),)+)
             }
@@ -188,12 +174,12 @@ macro_rules! tuple {
                 ($($G::coadjoint_bracket(&xi.$i, &mu.$i),)+)
             }
             #[inline(always)]
-            fn dexp(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-                ($($G::dexp(&xi.$i, &eta.$i),)+)
+            fn d_left<R_: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+                ($($G::d_left::<R_>(&xi.$i, &eta.$i),)+)
             }
             #[inline(always)]
-            fn dexp_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-                ($($G::dexp_inv(&xi.$i, &eta.$i),)+)
+            fn d_left_inv<R_: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+                ($($G::d_left_inv::<R_>(&xi.$i, &eta.$i),)+)
             }
             #[inline(always)]
             fn cayley(xi: &Self::Algebra) -> Self {
@@ -204,36 +190,16 @@ macro_rules! tuple {
                 Ok(($(self.$i.cayley_inverse()?,)+))
             }
             #[inline(always)]
-            fn dcay(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-                ($($G::dcay(&xi.$i, &eta.$i),)+)
+            fn d_left_dual<R_: Retraction>(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                ($($G::d_left_dual::<R_>(&xi.$i, &mu.$i),)+)
             }
             #[inline(always)]
-            fn dcay_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-                ($($G::dcay_inv(&xi.$i, &eta.$i),)+)
+            fn d_left_inv_dual<R_: Retraction>(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                ($($G::d_left_inv_dual::<R_>(&xi.$i, &mu.$i),)+)
             }
             #[inline(always)]
-            fn dexp_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-                ($($G::dexp_dual(&xi.$i, &mu.$i),)+)
-            }
-            #[inline(always)]
-            fn dexp_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-                ($($G::dexp_inv_dual(&xi.$i, &mu.$i),)+)
-            }
-            #[inline(always)]
-            fn dcay_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-                ($($G::dcay_dual(&xi.$i, &mu.$i),)+)
-            }
-            #[inline(always)]
-            fn dcay_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-                ($($G::dcay_inv_dual(&xi.$i, &mu.$i),)+)
-            }
-            #[inline(always)]
-            fn dexp_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
-                ($($G::dexp_inv_gradient(&xi.$i, &mu.$i, &eta.$i),)+)
-            }
-            #[inline(always)]
-            fn dcay_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
-                ($($G::dcay_inv_gradient(&xi.$i, &mu.$i, &eta.$i),)+)
+            fn d_left_inv_gradient<R_: Retraction>(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
+                ($($G::d_left_inv_gradient::<R_>(&xi.$i, &mu.$i, &eta.$i),)+)
             }
             #[inline(always)]
             fn sqrt(&self) -> Self {
@@ -312,12 +278,8 @@ macro_rules! tuple {
                 $($G::chart_velocity_into::<R_>(&c.$i, &xi.$i, &mut c_dot.$i);)+
             }
             #[inline(always)]
-            fn exp_into(xi: &Self::Algebra, out: &mut Self) {
-                $($G::exp_into(&xi.$i, &mut out.$i);)+
-            }
-            #[inline(always)]
-            fn cayley_into(xi: &Self::Algebra, out: &mut Self) {
-                $($G::cayley_into(&xi.$i, &mut out.$i);)+
+            fn retract_into<R_: Retraction>(xi: &Self::Algebra, out: &mut Self) {
+                $($G::retract_into::<R_>(&xi.$i, &mut out.$i);)+
             }
             #[inline(always)]
             fn convert_into<A_: Scalar, B_: Scalar>(
@@ -400,10 +362,6 @@ macro_rules! repeated {
                 }
             }
             #[inline(always)]
-            fn norm_squared(&self) -> f64 {
-                self.iter().map(VectorSpace::norm_squared).sum()
-            }
-            #[inline(always)]
             fn max_magnitude(&self) -> f64 {
                 self.iter()
                     .map(VectorSpace::max_magnitude)
@@ -466,14 +424,6 @@ macro_rules! repeated {
                 units.repeat(self.iter());
             }
             #[inline(always)]
-            fn identity_like(&self) -> Self {
-                $map(self.len(), |i: usize| self[i].identity_like())
-            }
-            #[inline(always)]
-            fn pair(mu: &Self::Dual, xi: &Self::Algebra) -> $G::Scalar {
-                mu.iter().zip(xi.iter()).fold($G::Scalar::zero(), |sum, (m, x)| sum + $G::pair(m, x))
-            }
-            #[inline(always)]
             fn coadjoint(&self, mu: &Self::Dual) -> Self::Dual {
                 $map(self.len(), |i: usize| self[i].coadjoint(&mu[i]))
             }
@@ -482,12 +432,12 @@ macro_rules! repeated {
                 $map(xi.len(), |i: usize| $G::coadjoint_bracket(&xi[i], &mu[i]))
             }
             #[inline(always)]
-            fn dexp(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-                $map(xi.len(), |i: usize| $G::dexp(&xi[i], &eta[i]))
+            fn d_left<R_: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+                $map(xi.len(), |i: usize| $G::d_left::<R_>(&xi[i], &eta[i]))
             }
             #[inline(always)]
-            fn dexp_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-                $map(xi.len(), |i: usize| $G::dexp_inv(&xi[i], &eta[i]))
+            fn d_left_inv<R_: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+                $map(xi.len(), |i: usize| $G::d_left_inv::<R_>(&xi[i], &eta[i]))
             }
             #[inline(always)]
             fn cayley(xi: &Self::Algebra) -> Self {
@@ -505,36 +455,16 @@ macro_rules! repeated {
                 inside.map(|()| xi)
             }
             #[inline(always)]
-            fn dcay(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-                $map(xi.len(), |i: usize| $G::dcay(&xi[i], &eta[i]))
+            fn d_left_dual<R_: Retraction>(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::d_left_dual::<R_>(&xi[i], &mu[i]))
             }
             #[inline(always)]
-            fn dcay_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-                $map(xi.len(), |i: usize| $G::dcay_inv(&xi[i], &eta[i]))
+            fn d_left_inv_dual<R_: Retraction>(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::d_left_inv_dual::<R_>(&xi[i], &mu[i]))
             }
             #[inline(always)]
-            fn dexp_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-                $map(xi.len(), |i: usize| $G::dexp_dual(&xi[i], &mu[i]))
-            }
-            #[inline(always)]
-            fn dexp_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-                $map(xi.len(), |i: usize| $G::dexp_inv_dual(&xi[i], &mu[i]))
-            }
-            #[inline(always)]
-            fn dcay_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-                $map(xi.len(), |i: usize| $G::dcay_dual(&xi[i], &mu[i]))
-            }
-            #[inline(always)]
-            fn dcay_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-                $map(xi.len(), |i: usize| $G::dcay_inv_dual(&xi[i], &mu[i]))
-            }
-            #[inline(always)]
-            fn dexp_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
-                $map(xi.len(), |i: usize| $G::dexp_inv_gradient(&xi[i], &mu[i], &eta[i]))
-            }
-            #[inline(always)]
-            fn dcay_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
-                $map(xi.len(), |i: usize| $G::dcay_inv_gradient(&xi[i], &mu[i], &eta[i]))
+            fn d_left_inv_gradient<R_: Retraction>(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
+                $map(xi.len(), |i: usize| $G::d_left_inv_gradient::<R_>(&xi[i], &mu[i], &eta[i]))
             }
             #[inline(always)]
             fn sqrt(&self) -> Self {
@@ -623,12 +553,8 @@ macro_rules! repeated {
                 }
             }
             #[inline(always)]
-            fn exp_into(xi: &Self::Algebra, out: &mut Self) {
-                xi.iter().zip(out.iter_mut()).for_each(|(xi, out)| $G::exp_into(xi, out));
-            }
-            #[inline(always)]
-            fn cayley_into(xi: &Self::Algebra, out: &mut Self) {
-                xi.iter().zip(out.iter_mut()).for_each(|(xi, out)| $G::cayley_into(xi, out));
+            fn retract_into<R_: Retraction>(xi: &Self::Algebra, out: &mut Self) {
+                xi.iter().zip(out.iter_mut()).for_each(|(xi, out)| $G::retract_into::<R_>(xi, out));
             }
             #[inline(always)]
             fn convert_into<A_: Scalar, B_: Scalar>(

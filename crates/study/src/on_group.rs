@@ -23,7 +23,7 @@
 //! ```
 
 use dvi::{ContinuousSystem, State};
-use lie::{Exp, LieGroup, Retraction, VectorSpace};
+use lie::{Exp, LieGroup, VectorSpace};
 
 use crate::baseline::{self, BaselineError, Pair, Tolerance};
 use crate::problems::{ProblemError, Solution};
@@ -210,7 +210,7 @@ impl<'a, S: ContinuousSystem> Chart<'a, S> {
             .velocity_and_force::<f64>(t, &g, &self.mu, &mut self.workspace, xi, tau);
         tau.add_scaled(1.0, &S::Group::coadjoint_bracket(xi, &self.mu));
         let (dc, dmu) = dy.split_at_mut(self.c.dim());
-        Exp::d_left_inv::<S::Group>(&self.c, xi).write(dc);
+        S::Group::d_left_inv::<Exp>(&self.c, xi).write(dc);
         tau.write(dmu);
     }
 

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use lie::{LieGroup, RealGroup, Retraction, VectorSpace};
+use lie::{Cayley, LieGroup, RealGroup, Retraction, VectorSpace};
 
 use crate::balance::Balance;
 use crate::numbers::larger;
@@ -486,7 +486,7 @@ fn weights<L: DiscreteLagrangian>(
     let mut momentum = |displacement: f64, i: usize| {
         c.set_zero();
         c.set(i, displacement);
-        L::Group::cayley_into(&c, &mut f);
+        L::Group::retract_into::<Cayley>(&c, &mut f);
         lagrangian.derivatives(t, g, &f, SHORT * h, &mut derivatives);
         derivatives.d_f.get(i)
     };

@@ -1,7 +1,7 @@
 //! Runge–Kutta methods on the group itself.
 
 use dvi::{ContinuousSystem, Integrator, State, StepError, StepReport};
-use lie::{LieGroup, RealGroup, VectorSpace};
+use lie::{Exp, LieGroup, RealGroup, VectorSpace};
 
 use super::check;
 
@@ -191,7 +191,7 @@ impl<S: ContinuousSystem> Storage<S> {
             self.evaluate(system, from, h, i);
             match scheme {
                 Scheme::MuntheKaas if i > 0 => {
-                    self.rates[i] = S::Group::dexp_inv(&self.c, &self.xi);
+                    self.rates[i] = S::Group::d_left_inv::<Exp>(&self.c, &self.xi);
                 }
                 _ => self.rates[i].copy_from(&self.xi),
             }
@@ -207,7 +207,7 @@ impl<S: ContinuousSystem> Storage<S> {
                 self.c.add_scaled(weight * h, rate);
             }
         }
-        S::Group::exp_into(&self.c, &mut self.exp);
+        S::Group::retract_into::<Exp>(&self.c, &mut self.exp);
     }
 
     /// Velocity and force of stage `i`, whose configuration is there.
