@@ -1,6 +1,6 @@
 //! $\mathbb{R}^n$ under addition.
 
-use crate::kahan;
+use crate::numeric::add_all_compensated;
 use crate::{Cotangent, LieGroup, NotUnique, Over, Retraction, Scalar, Tangent, Vec3};
 
 /// A vector of $\mathbb{R}^n$, the group operation being addition.
@@ -122,9 +122,7 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
 
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
-        for i in 0..N {
-            kahan::add(&mut self.0[i], f.0[i], &mut carry.0[i]);
-        }
+        add_all_compensated(&mut self.0, f.0, &mut carry.0);
     }
 
     #[inline(always)]

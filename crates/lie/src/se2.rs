@@ -1,6 +1,6 @@
 //! SE(2): rigid displacements of the plane.
 
-use crate::kahan;
+use crate::numeric::add_all_compensated;
 use crate::plane::{add, cross, scale, turn};
 use crate::series::{polynomial, polynomial_dual, polynomial_gradient};
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
@@ -197,11 +197,6 @@ impl<S: Scalar> LieGroup for SE2<S> {
     }
 
     #[inline(always)]
-    fn identity_like(&self) -> Self {
-        Self::identity()
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
         let (angular, linear) = split(mu.0);
         Cotangent(join(
@@ -318,10 +313,7 @@ impl<S: Scalar> LieGroup for SE2<S> {
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         let increment = self.rotation.rotate(f.translation);
-        let sums = self.translation.iter_mut().zip(&mut carry.translation);
-        for ((x, carry), increment) in sums.zip(increment) {
-            kahan::add(x, increment, carry);
-        }
+        add_all_compensated(&mut self.translation, increment, &mut carry.translation);
         self.rotation.advance(&f.rotation, &mut carry.rotation);
     }
 

@@ -1,6 +1,6 @@
 //! SE(3): rigid displacements of space.
 
-use crate::kahan;
+use crate::numeric::add_all_compensated;
 use crate::series::{polynomial, polynomial_dual, polynomial_gradient};
 use crate::stumpff::{stumpff, stumpff_next};
 use crate::{
@@ -204,11 +204,6 @@ impl<S: Scalar> LieGroup for SE3<S> {
     }
 
     #[inline(always)]
-    fn identity_like(&self) -> Self {
-        Self::identity()
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
         let (angular, linear) = mu.split();
         let r = &self.rotation;
@@ -326,11 +321,8 @@ impl<S: Scalar> LieGroup for SE3<S> {
 
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
-        let increment = self.rotation.rotate(f.translation);
-        for i in 0..3 {
-            let (x, carry) = (&mut self.translation[i], &mut carry.translation[i]);
-            kahan::add(x, increment[i], carry);
-        }
+        let (x, carried) = (&mut self.translation.0, &mut carry.translation.0);
+        add_all_compensated(x, self.rotation.rotate(f.translation).0, carried);
         self.rotation.advance(&f.rotation, &mut carry.rotation);
     }
 

@@ -1,6 +1,6 @@
 //! SO(2): rotations of the plane.
 
-use crate::kahan;
+use crate::numeric::add_compensated;
 use crate::{
     Chart, Cotangent, LieGroup, NotUnique, OutsideChart, Over, Retraction, Scalar, Tangent, Units,
 };
@@ -214,11 +214,6 @@ impl<S: Scalar> LieGroup for SO2<S> {
     }
 
     #[inline(always)]
-    fn identity_like(&self) -> Self {
-        Self::identity()
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<1, S>) -> Cotangent<1, S> {
         *mu
     }
@@ -307,8 +302,8 @@ impl<S: Scalar> LieGroup for SO2<S> {
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         let (c, s, less) = (self.cos, self.sin, f.cos_minus_one());
-        kahan::add(&mut self.cos, c * less - s * f.sin, &mut carry.cos);
-        kahan::add(&mut self.sin, s * less + c * f.sin, &mut carry.sin);
+        add_compensated(&mut self.cos, c * less - s * f.sin, &mut carry.cos);
+        add_compensated(&mut self.sin, s * less + c * f.sin, &mut carry.sin);
     }
 
     /// One Newton step for the unit length, $z \leftarrow \frac12 z (3 - |z|^2)$.

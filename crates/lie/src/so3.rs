@@ -1,6 +1,6 @@
 //! SO(3): rotations of space.
 
-use crate::kahan;
+use crate::numeric::add_all_compensated;
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
 use crate::{
     Chart, Cotangent, LieGroup, Mat3, NotARotation, NotUnique, OutsideChart, Over, Retraction,
@@ -326,11 +326,6 @@ impl<S: Scalar> LieGroup for SO3<S> {
     }
 
     #[inline(always)]
-    fn identity_like(&self) -> Self {
-        Self::identity()
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
         self.inverse_rotate(mu.vec3()).into()
     }
@@ -459,9 +454,9 @@ impl<S: Scalar> LieGroup for SO3<S> {
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         let increment = self.matrix * f.minus_identity();
-        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-            let (entry, carry) = (&mut self.matrix[(i, j)], &mut carry.matrix[(i, j)]);
-            kahan::add(entry, increment[(i, j)], carry);
+        let rows = self.matrix.0.iter_mut().zip(&mut carry.matrix.0);
+        for ((row, carry), increment) in rows.zip(increment.0) {
+            add_all_compensated(row, increment, carry);
         }
     }
 
