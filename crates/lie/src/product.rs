@@ -1,7 +1,8 @@
 //! Direct products: tuples and arrays of groups, and the run-time-sized [`Power`].
 //!
 //! Every operation acts factor by factor; algebra and dual are the tuple or array of the factors'. Each is written once,
-//! for a factor `i`: `at!(x, i)` is that of `x`, `$each!` acts on all in order, `$build!` makes a product of what they give.
+//! for a factor `i`: `at!(x, i)` is that of `x`, `$each!(x, y | z; ..)` acts on all in order, reading `x` and `y` and writing
+//! `z`, `$build!` makes a product of what they give.
 
 use core::array::from_fn;
 
@@ -23,12 +24,16 @@ macro_rules! at {
 }
 
 macro_rules! each_of_tuple {
-    ($like:ident; $($i:tt => $action:expr),+) => { $($action;)+ };
+    ($($read:ident),* $(| $($written:ident),+)?; $($i:tt => $action:expr),+) => { $($action;)+ };
 }
 
 macro_rules! each_of_equal {
-    ($like:ident; $i:ident => $action:expr) => {
-        for $i in 0..$like.len() {
+    ($like:ident $(, $read:ident)* $(| $($written:ident),+)?; $i:ident => $action:expr) => {
+        let n = $like.len();
+        // As slices of one length they are indexed without checks.
+        $(let $read = &$read[..n];)*
+        $($(let $written = &mut $written[..n];)+)?
+        for $i in 0..n {
             $action;
         }
     };
@@ -83,7 +88,7 @@ macro_rules! vectors_by_factor {
         }
         #[inline(always)]
         fn copy_from(&mut self, y: &Self) {
-            $each!(self; $($i => at!(self, $i).copy_from(&at!(y, $i))),+);
+            $each!(self, y; $($i => at!(self, $i).copy_from(&at!(y, $i))),+);
         }
         #[inline(always)]
         fn scale(&mut self, a: Self::Scalar) {
@@ -91,11 +96,11 @@ macro_rules! vectors_by_factor {
         }
         #[inline(always)]
         fn add_scaled(&mut self, a: Self::Scalar, y: &Self) {
-            $each!(self; $($i => at!(self, $i).add_scaled(a, &at!(y, $i))),+);
+            $each!(self, y; $($i => at!(self, $i).add_scaled(a, &at!(y, $i))),+);
         }
         #[inline(always)]
         fn set_sum(&mut self, x: &Self, a: Self::Scalar, y: &Self) {
-            $each!(self; $($i => at!(self, $i).set_sum(&at!(x, $i), a, &at!(y, $i))),+);
+            $each!(self, x, y; $($i => at!(self, $i).set_sum(&at!(x, $i), a, &at!(y, $i))),+);
         }
         #[inline(always)]
         fn max_magnitude(&self) -> f64 {
@@ -153,9 +158,8 @@ macro_rules! group_by_factor {
         }
         #[inline(always)]
         fn is_finite(&self) -> bool {
-            let mut finite = true;
-            $each!(self; $($i => finite &= at!(self, $i).is_finite()),+);
-            finite
+            $each!(self; $($i => if !at!(self, $i).is_finite() { return false }),+);
+            true
         }
         #[inline(always)]
         fn normalize(&mut self) {
@@ -164,7 +168,7 @@ macro_rules! group_by_factor {
         #[inline(always)]
         fn pair(mu: &Self::Dual, xi: &Self::Algebra) -> Self::Scalar {
             let mut sum = Self::Scalar::zero();
-            $each!(mu; $($i => sum += $G::pair(&at!(mu, $i), &at!(xi, $i))),+);
+            $each!(mu, xi; $($i => sum += $G::pair(&at!(mu, $i), &at!(xi, $i))),+);
             sum
         }
         #[inline(always)]
@@ -214,27 +218,27 @@ macro_rules! group_by_factor {
         }
         #[inline(always)]
         fn convert_into<X: Scalar, Y: Scalar>(g: &Over<Self, X>, f: impl Fn(X) -> Y + Copy, out: &mut Over<Self, Y>) {
-            $each!(g; $($i => $G::convert_into(&at!(g, $i), f, &mut at!(out, $i))),+);
+            $each!(g | out; $($i => $G::convert_into(&at!(g, $i), f, &mut at!(out, $i))),+);
         }
         #[inline(always)]
         fn compose_into(&self, h: &Self, out: &mut Self) {
-            $each!(self; $($i => at!(self, $i).compose_into(&at!(h, $i), &mut at!(out, $i))),+);
+            $each!(self, h | out; $($i => at!(self, $i).compose_into(&at!(h, $i), &mut at!(out, $i))),+);
         }
         #[inline(always)]
         fn inverse_into(&self, out: &mut Self) {
-            $each!(self; $($i => at!(self, $i).inverse_into(&mut at!(out, $i))),+);
+            $each!(self | out; $($i => at!(self, $i).inverse_into(&mut at!(out, $i))),+);
         }
         #[inline(always)]
         fn retract_into<R: Retraction>(xi: &Self::Algebra, out: &mut Self) {
-            $each!(xi; $($i => $G::retract_into::<R>(&at!(xi, $i), &mut at!(out, $i))),+);
+            $each!(xi | out; $($i => $G::retract_into::<R>(&at!(xi, $i), &mut at!(out, $i))),+);
         }
         #[inline(always)]
         fn coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
-            $each!(self; $($i => at!(self, $i).coadjoint_into(&at!(mu, $i), &mut at!(out, $i))),+);
+            $each!(self, mu | out; $($i => at!(self, $i).coadjoint_into(&at!(mu, $i), &mut at!(out, $i))),+);
         }
         #[inline(always)]
         fn inverse_coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
-            $each!(self; $($i => at!(self, $i).inverse_coadjoint_into(&at!(mu, $i), &mut at!(out, $i))),+);
+            $each!(self, mu | out; $($i => at!(self, $i).inverse_coadjoint_into(&at!(mu, $i), &mut at!(out, $i))),+);
         }
         #[inline(always)]
         fn zero_carry(&self) -> Self {
@@ -242,11 +246,11 @@ macro_rules! group_by_factor {
         }
         #[inline(always)]
         fn advance(&mut self, f: &Self, carry: &mut Self) {
-            $each!(self; $($i => at!(self, $i).advance(&at!(f, $i), &mut at!(carry, $i))),+);
+            $each!(self, f | carry; $($i => at!(self, $i).advance(&at!(f, $i), &mut at!(carry, $i))),+);
         }
         #[inline(always)]
         fn chart_enter_into<R: Retraction>(c: &Self::Algebra, pi: &Self::Dual, (f, mu): (&mut Self, &mut Self::Dual)) {
-            $each!(c; $($i => {
+            $each!(c, pi | f, mu; $($i => {
                 let out = (&mut at!(f, $i), &mut at!(mu, $i));
                 $G::chart_enter_into::<R>(&at!(c, $i), &at!(pi, $i), out)
             }),+);
@@ -257,7 +261,7 @@ macro_rules! group_by_factor {
             momentum: &Self::Dual,
             (f, mu, pi): (&mut Self, &mut Self::Dual, &mut Self::Dual),
         ) {
-            $each!(c; $($i => {
+            $each!(c, momentum | f, mu, pi; $($i => {
                 let out = (&mut at!(f, $i), &mut at!(mu, $i), &mut at!(pi, $i));
                 $G::chart_leave_into::<R>(&at!(c, $i), &at!(momentum, $i), out)
             }),+);
@@ -268,14 +272,14 @@ macro_rules! group_by_factor {
             (xi, tau): (&Self::Algebra, &Self::Dual),
             (c_dot, pi_dot): (&mut Self::Algebra, &mut Self::Dual),
         ) {
-            $each!(c; $($i => {
+            $each!(c, pi, xi, tau | c_dot, pi_dot; $($i => {
                 let out = (&mut at!(c_dot, $i), &mut at!(pi_dot, $i));
                 $G::chart_rates_into::<R>((&at!(c, $i), &at!(pi, $i)), (&at!(xi, $i), &at!(tau, $i)), out)
             }),+);
         }
         #[inline(always)]
         fn chart_velocity_into<R: Retraction>(c: &Self::Algebra, xi: &Self::Algebra, c_dot: &mut Self::Algebra) {
-            $each!(c; $($i => $G::chart_velocity_into::<R>(&at!(c, $i), &at!(xi, $i), &mut at!(c_dot, $i))),+);
+            $each!(c, xi | c_dot; $($i => $G::chart_velocity_into::<R>(&at!(c, $i), &at!(xi, $i), &mut at!(c_dot, $i))),+);
         }
     };
 }
