@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let lost = Trajectory {
         name: "RK 4(5), relative tolerance 1e-3",
         colour: Colour::SkyBlue,
-        frames: runge_kutta(&scene, seconds)?,
+        frames: runge_kutta(&scene, seconds, kept.frames.iter().map(Frame::t))?,
     };
     kept.report();
     lost.report();
@@ -50,11 +50,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     fs::write("out/fish_chain.png", drawn.png)?;
     println!("drawn to out/fish_chain.svg and out/fish_chain.png");
     Ok(())
-}
-
-/// How many samples follow the first.
-fn samples(seconds: f64) -> u32 {
-    (seconds / (STEP * f64::from(EVERY))).round() as u32
 }
 
 /// Hamilton's form of the variational integrator, (39)–(46), at a fixed step.
@@ -81,23 +76,26 @@ fn variational(scene: &Scene, seconds: f64) -> Result<Vec<Frame>, Box<dyn Error>
 }
 
 /// Hamilton's equations (18)–(20) by Dormand–Prince 5(4) on the entries of the rotation matrices.
-fn runge_kutta(scene: &Scene, seconds: f64) -> Result<Vec<Frame>, Box<dyn Error>> {
+fn runge_kutta(
+    scene: &Scene,
+    seconds: f64,
+    times: impl Iterator<Item = f64>,
+) -> Result<Vec<Frame>, Box<dyn Error>> {
     let (model, start) = (scene.model()?, scene.initial_state()?);
     let clock = Instant::now();
-    let samples = samples(seconds);
-    let time = |k: u32| STEP * f64::from(EVERY * k);
-    let mut motion = Motion::new(&Pair::DP54, model, start, time(samples), TOLERANCE)?;
-    let states = (0..=samples).map(|k| Ok(motion.at(time(k))?.clone()));
-    let states = states.collect::<Result<_, Box<dyn Error>>>()?;
+    let mut motion = Motion::new(&Pair::DP54, &model, &start, seconds, TOLERANCE)?;
+    let mut frames = Vec::new();
+    for t in times {
+        let frame = Frame::new(&model, motion.at(t)?.clone());
+        frames.push(frame.ok_or("a number is not finite")?);
+    }
     println!(
         "RK 4(5): {} steps at relative tolerance {:e} in {:.3} s",
         motion.work().accepted,
         TOLERANCE.relative,
         clock.elapsed().as_secs_f64()
     );
-    let states = samples.t.iter().zip(&samples.y);
-    let frame = |(t, y): (&f64, &Vec<f64>)| Frame::new(&model, raw::unpack(*t, y)?);
-    Ok(states.filter_map(frame).collect())
+    Ok(frames)
 }
 
 /// What is drawn of a method.
@@ -176,11 +174,11 @@ fn figure(lost: &Trajectory, kept: &Trajectory) -> Figure {
         columns: 2,
         panels: vec![
             velocity("(a) angular velocity of the head, Ω₀", "rad/s", |f| {
-                f.velocity.0.vec3()
+                f.velocity.0[0].vec3()
             }),
             constant("(b) total energy", "J", linear, &|_, f| f.sample.energy),
             velocity("(c) angular velocity of tail 1, Ω₁", "rad/s", |f| {
-                f.velocity.2[0].vec3()
+                f.velocity.0[1].vec3()
             }),
             constant(
                 "(d) change of the linear momentum",
@@ -189,7 +187,7 @@ fn figure(lost: &Trajectory, kept: &Trajectory) -> Figure {
                 &Trajectory::linear_change,
             ),
             velocity("(e) angular velocity of tail 2, Ω₂", "rad/s", |f| {
-                f.velocity.2[1].vec3()
+                f.velocity.0[2].vec3()
             }),
             constant(
                 "(f) change of the angular momentum",
@@ -197,7 +195,9 @@ fn figure(lost: &Trajectory, kept: &Trajectory) -> Figure {
                 log,
                 &Trajectory::angular_change,
             ),
-            velocity("(g) velocity of the head", "m/s", |f| f.velocity.1.vec3()),
+            velocity("(g) velocity of the head", "m/s", |f| {
+                f.velocity.1[0].vec3()
+            }),
             constant("(h) orthogonality, ‖I − RᵀR‖", "", log, &|_, f| {
                 f.sample.orthogonality
             }),

@@ -13,7 +13,7 @@ pub fn paper() -> (ArticulatedBody, State<Configuration>) {
 }
 
 /// (22) without its derivatives (29)–(33).
-pub struct ValueOnly(ArticulatedBody);
+pub struct ValueOnly(pub ArticulatedBody);
 
 impl System for ValueOnly {
     type Group = Configuration;

@@ -1,6 +1,6 @@
 //! First variations: the derivative of the flow, carried along with a trajectory.
 
-use lie::{Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
+use lie::{Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 use crate::{Integrator, State, StepError, StepReport, System};
 
@@ -181,7 +181,7 @@ impl<G: RealGroup> Varied<G> {
             let change = along(&|variation| variation.parameters.get(i).copied().unwrap_or(0.0));
             self.parameters.push(J::constant(*parameter) + change);
         }
-        Cayley::retract_into::<Over<G, J>>(&eta, &mut self.turn);
+        Over::<G, J>::retract_into::<Cayley>(&eta, &mut self.turn);
         self.g = state.g.lift::<J>().compose(&self.turn);
     }
 

@@ -4,7 +4,9 @@ use core::fmt::Debug;
 
 use num_traits::{One, Zero};
 
-use crate::{Jet, NotUnique, OutsideChart, Retraction, Scalar, Units, VectorSpace, dense};
+use crate::{
+    Chart, Jet, NotUnique, OutsideChart, Retraction, Scalar, Units, VectorSpace, dense, series,
+};
 
 /// The group `G` with its numbers replaced by `S`.
 pub type Over<G, S> = <G as LieGroup>::WithScalar<S>;
@@ -21,16 +23,31 @@ pub type DualOver<G, S> = <Over<G, S> as LieGroup>::Dual;
 /// $\mathrm{Ad}\_g \xi = g \xi g^{-1}$; $\mathrm{ad}\_\xi \eta = [\xi, \eta]$;
 /// $\langle \mathrm{Ad}^\ast\_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}\_g \xi\rangle$ and
 /// $\langle \mathrm{ad}^\ast\_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}\_\xi \eta\rangle$;
-/// differentials are left-trivialised, $\mathrm d\exp_\xi \eta = \exp(-\xi) \frac{d}{ds}\vert_{s=0} \exp(\xi + s\eta)$.
+/// differentials are left-trivialised, $\mathrm d\tau_\xi \eta = \tau(\xi)^{-1} \frac{d}{ds}\vert_{s=0} \tau(\xi + s\eta)$,
+/// of the [retraction](Retraction) $\tau$ that the type parameter `R` chooses.
 ///
 /// A type is a *family* over scalars: [`WithScalar`](Self::WithScalar) names its relatives, so one formula
-/// runs on floats, dual numbers and SIMD lanes. Write the required items for a group of your own and call
-/// [`laws::check`](crate::laws::check) on a few elements: it tests them. All else has a default; where speed
-/// counts, replace the default by a closed form, and the laws test that too.
+/// runs on floats, dual numbers and SIMD lanes.
 ///
-/// The `*_into` methods write into an existing element of the same shape; run-time-sized groups override
-/// them so that integrators step without allocating.
+/// # Required
+/// Four types and nine methods make a group: the zeros of [algebra](Self::zero_algebra) and [dual](Self::zero_dual),
+/// [`convert`](Self::convert), [`compose`](Self::compose), [`inverse`](Self::inverse), [`exp`](Self::exp),
+/// [`log`](Self::log), [`adjoint`](Self::adjoint) and [`bracket`](Self::bracket). Where its numbers are redundant, as a
+/// matrix's are, [`normalize`](Self::normalize) too. Call [`laws::check`](crate::laws::check) on a few elements: it tests
+/// them.
+///
+/// # Provided
+/// All else has a default. Replace it by a closed form where speed counts; the laws test that too.
+/// - Transposes: [`coadjoint`](Self::coadjoint), [`coadjoint_bracket`](Self::coadjoint_bracket); by the pairing.
+/// - The [Cayley map](Self::cayley) and [its inverse](Self::cayley_inverse), [`sqrt`](Self::sqrt); by `exp` and `log`.
+/// - Differentials of both retractions: [`d_left`](Self::d_left), its inverse, their transposes, a gradient; by
+///   [series](crate::series) and small linear systems. A closed form matches on [`R::CHART`](Retraction::CHART).
+/// - Shape: [`same_shape`](Self::same_shape), [`units`](Self::units), [`identity_like`](Self::identity_like).
+/// - Steps of integrators: the `*_into` methods write into an existing element of the same shape,
+///   [`advance`](Self::advance) compensates rounding. Run-time-sized groups override them so as not to allocate.
 pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
+    // Required.
+
     /// The numbers.
     type Scalar: Scalar;
     /// The Lie algebra $\mathfrak g$.
@@ -71,6 +88,8 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// $\mathrm{ad}\_\xi \eta = [\xi, \eta]$.
     fn bracket(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra;
 
+    // Provided: the shape, and the way back to the group.
+
     /// Whether the two have the same number of factors, so that their product exists; for groups of run-time size.
     #[inline(always)]
     fn same_shape(&self, _other: &Self) -> bool {
@@ -89,6 +108,18 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         Self::exp(&self.zero_algebra())
     }
 
+    /// Whether every number of the element is finite; by the logarithm unless given.
+    fn is_finite(&self) -> bool {
+        let log = self.log().unwrap_or_else(|e| e.representative);
+        log.max_magnitude().is_finite()
+    }
+
+    /// Pulls an element that rounding has moved off the group back to it; needed where the numbers are redundant, as a matrix's are.
+    #[inline(always)]
+    fn normalize(&mut self) {}
+
+    // Provided: the transposes.
+
     /// The pairing $\langle \mu, \xi \rangle$, by coordinates.
     #[inline(always)]
     fn pair(mu: &Self::Dual, xi: &Self::Algebra) -> Self::Scalar {
@@ -105,37 +136,7 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::bracket(xi, e))
     }
 
-    /// $\mathrm d\exp_\xi \eta$, left-trivialised.
-    ///
-    /// The default sums $\sum_k \frac{(-1)^k}{(k+1)!} \mathrm{ad}\_\xi^k \eta$; it is right to rounding
-    /// for $\lVert \mathrm{ad}\_\xi \rVert \le 2\pi$.
-    fn dexp(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-        dense::dexp_series::<Self>(xi, eta)
-    }
-
-    /// $\mathrm d\exp_\xi^{-1} \eta$, left-trivialised; the default solves a linear system of size `dim`.
-    fn dexp_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-        dense::solve::<Self>(eta, |e| Self::dexp(xi, e))
-    }
-
-    /// $(\mathrm d\exp_\xi)^\ast \mu$, the $\nu$ with
-    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\exp_\xi \eta\rangle$.
-    fn dexp_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::dexp(xi, e))
-    }
-
-    /// $(\mathrm d\exp_\xi^{-1})^\ast \mu$, the $\nu$ with
-    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\exp_\xi^{-1} \eta\rangle$.
-    fn dexp_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::dexp_inv(xi, e))
-    }
-
-    /// The gradient in $\xi$ of $\langle \mu, \mathrm d\exp_\xi^{-1} \eta\rangle$, with $\mu$ and $\eta$ fixed.
-    ///
-    /// The default goes back through the series of [`dexp`](Self::dexp)'s default, and is right where that is.
-    fn dexp_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
-        dense::dexp_inv_gradient::<Self>(xi, mu, eta)
-    }
+    // Provided: the retractions.
 
     /// The Cayley map $\mathrm{cay}(\xi) = (1 - \xi/2)^{-1} (1 + \xi/2)$ of a matrix group whose defining
     /// form is quadratic; by default the exponential.
@@ -154,32 +155,33 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         self.log().map_err(|_| OutsideChart)
     }
 
-    /// $\mathrm d\mathrm{cay}_\xi \eta$, left-trivialised.
-    fn dcay(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-        Self::dexp(xi, eta)
+    /// $\tau(\xi)$.
+    ///
+    /// ```
+    /// use lie::{Cayley, Exp, LieGroup, SO3, Tangent};
+    ///
+    /// let xi = Tangent([1e-3, 2e-3, -1e-3]);
+    /// let (a, b) = (SO3::retract::<Exp>(&xi), SO3::retract::<Cayley>(&xi));
+    /// assert!((*a.matrix() - *b.matrix()).frobenius() < 1e-8);
+    /// ```
+    #[inline(always)]
+    fn retract<R: Retraction>(xi: &Self::Algebra) -> Self {
+        match R::CHART {
+            Chart::Exp => Self::exp(xi),
+            Chart::Cayley => Self::cayley(xi),
+        }
     }
 
-    /// $\mathrm d\mathrm{cay}_\xi^{-1} \eta$, left-trivialised.
-    fn dcay_inv(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-        Self::dexp_inv(xi, eta)
-    }
-
-    /// $(\mathrm d\mathrm{cay}_\xi)^\ast \mu$, the $\nu$ with
-    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\mathrm{cay}_\xi \eta\rangle$.
-    fn dcay_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::dcay(xi, e))
-    }
-
-    /// $(\mathrm d\mathrm{cay}_\xi^{-1})^\ast \mu$, the $\nu$ with
-    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\mathrm{cay}_\xi^{-1} \eta\rangle$.
-    fn dcay_inv_dual(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::dcay_inv(xi, e))
-    }
-
-    /// The gradient in $\xi$ of $\langle \mu, \mathrm d\mathrm{cay}_\xi^{-1} \eta\rangle$, with $\mu$ and $\eta$
-    /// fixed; by default the exponential's, as the map is.
-    fn dcay_inv_gradient(xi: &Self::Algebra, mu: &Self::Dual, eta: &Self::Algebra) -> Self::Dual {
-        Self::dexp_inv_gradient(xi, mu, eta)
+    /// $\tau^{-1}(g)$.
+    ///
+    /// # Errors
+    /// [`OutsideChart`] where the inverse does not exist or is not unique.
+    #[inline(always)]
+    fn retract_inverse<R: Retraction>(&self) -> Result<Self::Algebra, OutsideChart> {
+        match R::CHART {
+            Chart::Exp => self.log().map_err(|_| OutsideChart),
+            Chart::Cayley => self.cayley_inverse(),
+        }
     }
 
     /// The square root nearest the identity: the $h$ with $h h = g$, halfway from $e$ to $g$ on the one-parameter
@@ -199,15 +201,75 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         Self::exp(&half)
     }
 
-    /// Whether every number of the element is finite; by the logarithm unless given.
-    fn is_finite(&self) -> bool {
-        let log = self.log().unwrap_or_else(|e| e.representative);
-        log.max_magnitude().is_finite()
+    // Provided: the differentials of the retractions.
+
+    /// The left-trivialised differential $\mathrm d\tau_\xi \eta = \tau(\xi)^{-1} \frac{d}{ds}\vert_{s=0} \tau(\xi + s \eta)$.
+    ///
+    /// The default is the exponential's [series](crate::series::dexp), for both retractions, as the Cayley map is the
+    /// exponential by default. A group that has a Cayley map of its own gives this method and
+    /// [the gradient](Self::d_left_inv_gradient) too.
+    fn d_left<R: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+        series::dexp::<Self>(xi, eta)
     }
 
-    /// Pulls an element that rounding has moved off the group back to it; needed where the numbers are redundant, as a matrix's are.
+    /// $\mathrm d\tau_\xi^{-1} \eta$; the default solves a linear system of size `dim`.
+    fn d_left_inv<R: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+        dense::solve::<Self>(eta, |e| Self::d_left::<R>(xi, e))
+    }
+
+    /// $(\mathrm d\tau_\xi)^\ast \mu$, the $\nu$ with
+    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\tau_\xi \eta\rangle$.
+    fn d_left_dual<R: Retraction>(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::d_left::<R>(xi, e))
+    }
+
+    /// $(\mathrm d\tau_\xi^{-1})^\ast \mu$, the $\nu$ with
+    /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\tau_\xi^{-1} \eta\rangle$.
+    fn d_left_inv_dual<R: Retraction>(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
+        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::d_left_inv::<R>(xi, e))
+    }
+
+    /// The gradient in $\xi$ of $\langle \mu, \mathrm d\tau_\xi^{-1} \eta\rangle$, with $\mu$ and $\eta$ fixed; the default
+    /// is the exponential's [series](crate::series::dexp_inv_gradient).
+    ///
+    /// ```
+    /// use lie::{Cayley, Cotangent, LieGroup, SO3, Tangent};
+    ///
+    /// // At zero, the map is 1 + ad/2 to first order.
+    /// let (xi, mu, eta) = (Tangent([0.0; 3]), Cotangent([1.0, 0.0, 0.0]), Tangent([0.0, 1.0, 0.0]));
+    /// let gradient = SO3::d_left_inv_gradient::<Cayley>(&xi, &mu, &eta);
+    /// assert_eq!(gradient, Cotangent([0.0, 0.0, -0.5]));
+    /// ```
+    fn d_left_inv_gradient<R: Retraction>(
+        xi: &Self::Algebra,
+        mu: &Self::Dual,
+        eta: &Self::Algebra,
+    ) -> Self::Dual {
+        series::dexp_inv_gradient::<Self>(xi, mu, eta)
+    }
+
+    /// The right-trivialised differential: $\frac{d}{ds}\vert_{s=0} \tau(\xi + s \eta) \tau(\xi)^{-1}$, which is
+    /// the left-trivialised one at $-\xi$.
+    fn d_right<R: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+        Self::d_left::<R>(&negated(xi), eta)
+    }
+
+    /// The inverse of [`d_right`](Self::d_right) in `eta`.
+    fn d_right_inv<R: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
+        Self::d_left_inv::<R>(&negated(xi), eta)
+    }
+
+    // Provided: in place.
+
+    /// [`convert`](Self::convert) into `out`.
     #[inline(always)]
-    fn normalize(&mut self) {}
+    fn convert_into<S: Scalar, T: Scalar>(
+        g: &Over<Self, S>,
+        f: impl Fn(S) -> T + Copy,
+        out: &mut Over<Self, T>,
+    ) {
+        *out = Self::convert(g, f);
+    }
 
     /// [`compose`](Self::compose) into `out`.
     #[inline(always)]
@@ -215,28 +277,22 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         *out = self.compose(h);
     }
 
-    /// [`coadjoint`](Self::coadjoint) into `out`.
-    #[inline(always)]
-    fn coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
-        *out = self.coadjoint(mu);
-    }
-
-    /// [`exp`](Self::exp) into `out`.
-    #[inline(always)]
-    fn exp_into(xi: &Self::Algebra, out: &mut Self) {
-        *out = Self::exp(xi);
-    }
-
-    /// [`cayley`](Self::cayley) into `out`.
-    #[inline(always)]
-    fn cayley_into(xi: &Self::Algebra, out: &mut Self) {
-        *out = Self::cayley(xi);
-    }
-
     /// [`inverse`](Self::inverse) into `out`.
     #[inline(always)]
     fn inverse_into(&self, out: &mut Self) {
         *out = self.inverse();
+    }
+
+    /// [`retract`](Self::retract) into `out`.
+    #[inline(always)]
+    fn retract_into<R: Retraction>(xi: &Self::Algebra, out: &mut Self) {
+        *out = Self::retract::<R>(xi);
+    }
+
+    /// [`coadjoint`](Self::coadjoint) into `out`.
+    #[inline(always)]
+    fn coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
+        *out = self.coadjoint(mu);
     }
 
     /// $\mathrm{Ad}^\ast\_{g^{-1}} \mu$ into `out`: from the frame of $g$ to the frame of the identity.
@@ -259,16 +315,17 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         *self = self.compose(f);
     }
 
-    /// From canonical coordinates $(c, \pi)$ of a chart $\tau$ about the identity: $f = \tau(c)$ and the momentum
-    /// $\mu = (\mathrm d\tau_c^{-1})^\ast \pi$.
+    // Provided: canonical coordinates (c, pi) of the chart about the identity.
+
+    /// From canonical coordinates $(c, \pi)$: $f = \tau(c)$ and the momentum $\mu = (\mathrm d\tau_c^{-1})^\ast \pi$.
     #[inline(always)]
     fn chart_enter_into<R: Retraction>(
         c: &Self::Algebra,
         pi: &Self::Dual,
         (f, mu): (&mut Self, &mut Self::Dual),
     ) {
-        R::retract_into::<Self>(c, f);
-        *mu = R::d_left_inv_dual::<Self>(c, pi);
+        Self::retract_into::<R>(c, f);
+        *mu = Self::d_left_inv_dual::<R>(c, pi);
     }
 
     /// To canonical coordinates at the end of a displacement: with $P$ the momentum in the frame of its start, $f = \tau(c)$,
@@ -279,9 +336,9 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         momentum: &Self::Dual,
         (f, mu, pi): (&mut Self, &mut Self::Dual, &mut Self::Dual),
     ) {
-        R::retract_into::<Self>(c, f);
+        Self::retract_into::<R>(c, f);
         f.coadjoint_into(momentum, mu);
-        *pi = R::d_left_dual::<Self>(c, mu);
+        *pi = Self::d_left_dual::<R>(c, mu);
     }
 
     /// Hamilton's equations in the chart, with the velocity $\xi$ and the force $\tau$:
@@ -293,9 +350,9 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         (xi, tau): (&Self::Algebra, &Self::Dual),
         (c_dot, pi_dot): (&mut Self::Algebra, &mut Self::Dual),
     ) {
-        *c_dot = R::d_left_inv::<Self>(c, xi);
-        *pi_dot = R::d_left_dual::<Self>(c, tau);
-        let gradient = R::d_left_inv_gradient::<Self>(c, pi, xi);
+        *c_dot = Self::d_left_inv::<R>(c, xi);
+        *pi_dot = Self::d_left_dual::<R>(c, tau);
+        let gradient = Self::d_left_inv_gradient::<R>(c, pi, xi);
         pi_dot.add_scaled(-Self::Scalar::one(), &gradient);
     }
 
@@ -306,18 +363,14 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         xi: &Self::Algebra,
         c_dot: &mut Self::Algebra,
     ) {
-        *c_dot = R::d_left_inv::<Self>(c, xi);
+        *c_dot = Self::d_left_inv::<R>(c, xi);
     }
+}
 
-    /// [`convert`](Self::convert) into `out`.
-    #[inline(always)]
-    fn convert_into<S: Scalar, T: Scalar>(
-        g: &Over<Self, S>,
-        f: impl Fn(S) -> T + Copy,
-        out: &mut Over<Self, T>,
-    ) {
-        *out = Self::convert(g, f);
-    }
+fn negated<V: VectorSpace>(xi: &V) -> V {
+    let mut minus = xi.clone();
+    minus.scale(-V::Scalar::one());
+    minus
 }
 
 /// A group over `f64`, the base of its family: what an integrator's state is made of.

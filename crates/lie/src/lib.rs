@@ -40,10 +40,11 @@
 //! | pairing | $\langle \mu, \xi \rangle$ | [`G::pair(&mu, &xi)`](LieGroup::pair) |
 //! | coadjoint action | $\langle \mathrm{Ad}^\ast_g \mu, \xi \rangle = \langle \mu, \mathrm{Ad}_g \xi \rangle$ | [`g.coadjoint(&mu)`](LieGroup::coadjoint) |
 //! | its derivative | $\langle \mathrm{ad}^\ast_\xi \mu, \eta \rangle = \langle \mu, \mathrm{ad}_\xi \eta \rangle$ | [`G::coadjoint_bracket(&xi, &mu)`](LieGroup::coadjoint_bracket) |
-//! | left-trivialised differential | $\mathrm d\exp_\xi \eta = \exp(-\xi) \frac{d}{ds} \exp(\xi + s \eta)$ at $s = 0$ | [`G::dexp(&xi, &eta)`](LieGroup::dexp), [`Retraction::d_left`] |
-//! | right-trivialised differential | $\frac{d}{ds} \exp(\xi + s \eta) \exp(-\xi)$ at $s = 0$ | [`Retraction::d_right`] |
-//! | its transpose | $\langle (\mathrm d\exp_\xi)^\ast \mu, \eta \rangle = \langle \mu, \mathrm d\exp_\xi \eta \rangle$ | [`G::dexp_dual(&xi, &mu)`](LieGroup::dexp_dual), [`Retraction::d_left_dual`] |
-//! | gradient of the inverse | $\nabla_\xi \langle \mu, \mathrm d\exp_\xi^{-1} \eta \rangle$ | [`G::dexp_inv_gradient(&xi, &mu, &eta)`](LieGroup::dexp_inv_gradient), [`Retraction::d_left_inv_gradient`] |
+//! | retraction $\tau$, by the type `R`: [`Exp`] or [`Cayley`] | $\tau(\xi)$, $\tau^{-1}(g)$ | [`G::retract::<R>(&xi)`](LieGroup::retract), [`g.retract_inverse::<R>()`](LieGroup::retract_inverse) |
+//! | left-trivialised differential | $\mathrm d\tau_\xi \eta = \tau(\xi)^{-1} \frac{d}{ds} \tau(\xi + s \eta)$ at $s = 0$ | [`G::d_left::<R>(&xi, &eta)`](LieGroup::d_left) |
+//! | right-trivialised differential | $\frac{d}{ds} \tau(\xi + s \eta) \tau(\xi)^{-1}$ at $s = 0$ | [`G::d_right::<R>(&xi, &eta)`](LieGroup::d_right) |
+//! | transpose of the left one | $\langle (\mathrm d\tau_\xi)^\ast \mu, \eta \rangle = \langle \mu, \mathrm d\tau_\xi \eta \rangle$ | [`G::d_left_dual::<R>(&xi, &mu)`](LieGroup::d_left_dual) |
+//! | gradient of the inverse | $\nabla_\xi \langle \mu, \mathrm d\tau_\xi^{-1} \eta \rangle$ | [`G::d_left_inv_gradient::<R>(&xi, &mu, &eta)`](LieGroup::d_left_inv_gradient) |
 //! | hat, vee | $\hat x y = x \times y$ | [`Vec3::hat`], [`Mat3::vee`] |
 //!
 //! Trivialisation is on the left everywhere: $\dot g = g \xi$, and velocities of rigid bodies are in the body's frame.
@@ -79,10 +80,10 @@ mod dense;
 mod dual_number;
 mod error;
 mod group;
-mod kahan;
 pub mod lanes;
 pub mod laws;
 mod matrix;
+mod numeric;
 mod plane;
 mod power;
 mod product;
@@ -91,6 +92,7 @@ mod rn;
 mod scalar;
 mod se2;
 mod se3;
+pub mod series;
 mod so2;
 mod so3;
 mod stumpff;
@@ -105,7 +107,7 @@ pub use error::{NotARotation, NotUnique, OutsideChart};
 pub use group::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, seed};
 pub use matrix::Mat3;
 pub use power::Power;
-pub use retraction::{Cayley, Exp, Retraction};
+pub use retraction::{Cayley, Chart, Exp, Retraction};
 pub use rn::{R3, Rn};
 pub use scalar::{JET_DIRECTIONS, Jet, Scalar};
 pub use se2::SE2;

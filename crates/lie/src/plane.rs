@@ -20,12 +20,6 @@ pub(crate) fn turn<S: Scalar>(a: S, [x, y]: [S; 2]) -> [S; 2] {
     [-(a * y), a * x]
 }
 
-/// $x \cdot y$.
-#[inline(always)]
-pub(crate) fn dot<S: Scalar>([a, b]: [S; 2], [c, d]: [S; 2]) -> S {
-    a * c + b * d
-}
-
 /// $x \times y = x_1 y_2 - x_2 y_1 = y \cdot J x$.
 #[inline(always)]
 pub(crate) fn cross<S: Scalar>([a, b]: [S; 2], [c, d]: [S; 2]) -> S {

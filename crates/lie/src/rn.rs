@@ -1,7 +1,7 @@
 //! $\mathbb{R}^n$ under addition.
 
-use crate::kahan;
-use crate::{Cotangent, LieGroup, NotUnique, Over, Scalar, Tangent, Vec3};
+use crate::numeric::add_all_compensated;
+use crate::{Cotangent, LieGroup, NotUnique, Over, Retraction, Scalar, Tangent, Vec3};
 
 /// A vector of $\mathbb{R}^n$, the group operation being addition.
 ///
@@ -122,9 +122,7 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
 
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
-        for i in 0..N {
-            kahan::add(&mut self.0[i], f.0[i], &mut carry.0[i]);
-        }
+        add_all_compensated(&mut self.0, f.0, &mut carry.0);
     }
 
     #[inline(always)]
@@ -138,37 +136,27 @@ impl<const N: usize, S: Scalar> LieGroup for Rn<N, S> {
     }
 
     #[inline(always)]
-    fn dexp(_: &Tangent<N, S>, eta: &Tangent<N, S>) -> Tangent<N, S> {
+    fn d_left<R: Retraction>(_: &Tangent<N, S>, eta: &Tangent<N, S>) -> Tangent<N, S> {
         *eta
     }
 
     #[inline(always)]
-    fn dexp_inv(_: &Tangent<N, S>, eta: &Tangent<N, S>) -> Tangent<N, S> {
+    fn d_left_inv<R: Retraction>(_: &Tangent<N, S>, eta: &Tangent<N, S>) -> Tangent<N, S> {
         *eta
     }
 
     #[inline(always)]
-    fn dexp_dual(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
+    fn d_left_dual<R: Retraction>(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
         *mu
     }
 
     #[inline(always)]
-    fn dexp_inv_dual(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
+    fn d_left_inv_dual<R: Retraction>(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
         *mu
     }
 
     #[inline(always)]
-    fn dcay_dual(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
-        *mu
-    }
-
-    #[inline(always)]
-    fn dcay_inv_dual(_: &Tangent<N, S>, mu: &Cotangent<N, S>) -> Cotangent<N, S> {
-        *mu
-    }
-
-    #[inline(always)]
-    fn dexp_inv_gradient(
+    fn d_left_inv_gradient<R: Retraction>(
         _: &Tangent<N, S>,
         _: &Cotangent<N, S>,
         _: &Tangent<N, S>,

@@ -1,9 +1,13 @@
 //! SE(2): rigid displacements of the plane.
 
-use crate::kahan;
-use crate::plane::{add, cross, dot, scale, turn};
+use crate::numeric::add_all_compensated;
+use crate::plane::{add, cross, scale, turn};
+use crate::series::{polynomial, polynomial_dual, polynomial_gradient};
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
-use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO2, Scalar, Tangent, Units};
+use crate::{
+    Cayley, Chart, Cotangent, LieGroup, NotUnique, OutsideChart, Over, Retraction, SO2, Scalar,
+    Tangent, Units,
+};
 
 /// A rigid displacement $y \mapsto R y + x$ of the plane, the semidirect product $SO(2) \ltimes \mathbb{R}^2$.
 ///
@@ -64,35 +68,31 @@ impl<S: Scalar> SE2<S> {
         scale(S::one() / (S::one() + half * half), half_turned(w, v))
     }
 
-    /// $\eta + a\, \mathrm{ad}\_\xi \eta + b\, \mathrm{ad}\_\xi^2 \eta$: every power series in $\mathrm{ad}\_\xi$,
-    /// whose minimal polynomial is $\lambda (\lambda^2 + \omega^2)$, has this form.
-    #[inline(always)]
-    fn ad_polynomial(xi: &Tangent<3, S>, eta: &Tangent<3, S>, [a, b]: [S; 2]) -> Tangent<3, S> {
-        let once = Self::bracket(xi, eta);
-        *eta + once * a + Self::bracket(xi, &once) * b
-    }
-
-    /// The transpose of [the polynomial in $\mathrm{ad}$](Self::ad_polynomial): the same one in $\mathrm{ad}^\ast$.
-    #[inline(always)]
-    fn coad_polynomial(
-        xi: &Tangent<3, S>,
-        mu: &Cotangent<3, S>,
-        [a, b]: [S; 2],
-    ) -> Cotangent<3, S> {
-        let once = Self::coadjoint_bracket(xi, mu);
-        *mu + once * a + Self::coadjoint_bracket(xi, &once) * b
-    }
-
+    /// Those of $\mathrm{ad}\_\xi$ and its square, whose minimal polynomial is $\lambda (\lambda^2 + \omega^2)$, in
+    /// $\mathrm d\exp_\xi = 1 - c_2\, \mathrm{ad}\_\xi + c_3\, \mathrm{ad}\_\xi^2$.
     #[inline(always)]
     fn dexp_coefficients(xi: &Tangent<3, S>) -> [S; 2] {
         let [_, c2, c3, ..] = stumpff(xi[0] * xi[0]);
         [-c2, c3]
     }
 
+    /// $\mathrm d\exp_\xi^{-1} = 1 + \frac12 \mathrm{ad}\_\xi + g(\omega^2)\, \mathrm{ad}\_\xi^2$ with $g$ of [`dexp_inv_factor`].
     #[inline(always)]
     fn dexp_inv_coefficients(xi: &Tangent<3, S>) -> [S; 2] {
         let [factor, _] = dexp_inv_factor(xi[0] * xi[0]);
         [S::from_f64(0.5), factor]
+    }
+
+    #[inline(always)]
+    fn dexp_inv_gradient(
+        xi: &Tangent<3, S>,
+        mu: &Cotangent<3, S>,
+        eta: &Tangent<3, S>,
+    ) -> Cotangent<3, S> {
+        let ([factor, slope], half) = (dexp_inv_factor(xi[0] * xi[0]), S::from_f64(0.5));
+        let (mut gradient, in_a) = polynomial_gradient::<Self, 2>(xi, mu, eta, &[half, factor]);
+        gradient[0] += (slope + slope) * xi[0] * in_a[1];
+        gradient
     }
 }
 
@@ -197,11 +197,6 @@ impl<S: Scalar> LieGroup for SE2<S> {
     }
 
     #[inline(always)]
-    fn identity_like(&self) -> Self {
-        Self::identity()
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
         let (angular, linear) = split(mu.0);
         Cotangent(join(
@@ -214,45 +209,6 @@ impl<S: Scalar> LieGroup for SE2<S> {
     fn coadjoint_bracket(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
         let ((w, v), (_, linear)) = (split(xi.0), split(mu.0));
         Cotangent(join(cross(linear, v), turn(-w, linear)))
-    }
-
-    /// $1 - c_2\, \mathrm{ad} + c_3\, \mathrm{ad}^2$.
-    #[inline(always)]
-    fn dexp(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
-        Self::ad_polynomial(xi, eta, Self::dexp_coefficients(xi))
-    }
-
-    /// $1 + \frac12 \mathrm{ad} + \frac{c_3 - 2 c_4}{2 c_2} \mathrm{ad}^2$.
-    #[inline(always)]
-    fn dexp_inv(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
-        Self::ad_polynomial(xi, eta, Self::dexp_inv_coefficients(xi))
-    }
-
-    #[inline(always)]
-    fn dexp_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
-        Self::coad_polynomial(xi, mu, Self::dexp_coefficients(xi))
-    }
-
-    #[inline(always)]
-    fn dexp_inv_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
-        Self::coad_polynomial(xi, mu, Self::dexp_inv_coefficients(xi))
-    }
-
-    /// Of $\frac12 q \cdot y + \omega g(\omega^2)\, q \cdot J y$ with $y = \omega J u - \alpha J v$, the linear part of
-    /// $\mathrm{ad}\_\xi \eta$.
-    #[inline(always)]
-    fn dexp_inv_gradient(
-        xi: &Tangent<3, S>,
-        mu: &Cotangent<3, S>,
-        eta: &Tangent<3, S>,
-    ) -> Cotangent<3, S> {
-        let ((_, q), (a, u)) = (split(mu.0), split(eta.0));
-        let (w, y) = (xi[0], split(Self::bracket(xi, eta).0).1);
-        let [factor, slope] = dexp_inv_factor(w * w);
-        let (half, of_product) = (S::from_f64(0.5), factor + (slope + slope) * w * w);
-        let angular = half * cross(u, q) + of_product * cross(y, q) - w * factor * dot(u, q);
-        let linear = add(turn(half, q), scale(w * factor, q));
-        Cotangent(join(angular, scale(a, linear)))
     }
 
     /// The Cayley map of the 3×3 matrices: $(\mathrm{cay}(\omega), (1 - \omega J/2)^{-1} v)$.
@@ -268,54 +224,70 @@ impl<S: Scalar> LieGroup for SE2<S> {
         Ok(Tangent(join(w, half_turned(-w, self.translation))))
     }
 
-    /// $(\alpha / (1 + \omega^2/4), (1 + \omega J/2)^{-1} (u + \frac12 \alpha J x))$ with $x$ the translation of $\mathrm{cay}(\omega, v)$.
+    /// Cayley's: $(\alpha / (1 + \omega^2/4), (1 + \omega J/2)^{-1} (u + \frac12 \alpha J x))$ with $x$ the translation of
+    /// $\mathrm{cay}(\omega, v)$.
     #[inline(always)]
-    fn dcay(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+    fn d_left<R: Retraction>(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+        if R::CHART == Chart::Exp {
+            return polynomial::<Self>(xi, eta, &Self::dexp_coefficients(xi));
+        }
         let ((w, v), (a, u)) = (split(xi.0), split(eta.0));
-        let Tangent([angular]) = SO2::dcay(&Tangent([w]), &Tangent([a]));
+        let Tangent([angular]) = SO2::d_left::<Cayley>(&Tangent([w]), &Tangent([a]));
         let x = Self::cayley_translation(w, v);
         let moved = add(u, turn(a * S::from_f64(0.5), x));
         Tangent(join(angular, Self::cayley_translation(-w, moved)))
     }
 
-    /// $((1 + \omega^2/4) \alpha, (1 + \omega J/2) (u - \frac12 \alpha J v))$.
+    /// Cayley's: $((1 + \omega^2/4) \alpha, (1 + \omega J/2) (u - \frac12 \alpha J v))$.
     #[inline(always)]
-    fn dcay_inv(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+    fn d_left_inv<R: Retraction>(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+        if R::CHART == Chart::Exp {
+            return polynomial::<Self>(xi, eta, &Self::dexp_inv_coefficients(xi));
+        }
         let ((w, v), (a, u)) = (split(xi.0), split(eta.0));
-        let Tangent([angular]) = SO2::dcay_inv(&Tangent([w]), &Tangent([a]));
+        let Tangent([angular]) = SO2::d_left_inv::<Cayley>(&Tangent([w]), &Tangent([a]));
         let moved = add(u, turn(-(a * S::from_f64(0.5)), v));
         Tangent(join(angular, half_turned(w, moved)))
     }
 
-    /// $(\pi / (1 + \omega^2/4) + \frac12 x \times p, p)$ with $p = (1 - \omega J/2)^{-1} q$ and $x$ the translation of
-    /// $\mathrm{cay}(\omega, v)$.
+    /// Cayley's: $(\pi / (1 + \omega^2/4) + \frac12 x \times p, p)$ with $p = (1 - \omega J/2)^{-1} q$ and $x$ the
+    /// translation of $\mathrm{cay}(\omega, v)$.
     #[inline(always)]
-    fn dcay_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+    fn d_left_dual<R: Retraction>(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        if R::CHART == Chart::Exp {
+            return polynomial_dual::<Self>(xi, mu, &Self::dexp_coefficients(xi));
+        }
         let ((w, v), (angular, q)) = (split(xi.0), split(mu.0));
         let (p, x) = (
             Self::cayley_translation(w, q),
             Self::cayley_translation(w, v),
         );
-        let Cotangent([angular]) = SO2::dcay_dual(&Tangent([w]), &Cotangent([angular]));
+        let Cotangent([angular]) = SO2::d_left_dual::<Cayley>(&Tangent([w]), &Cotangent([angular]));
         Cotangent(join(angular + S::from_f64(0.5) * cross(x, p), p))
     }
 
-    /// $((1 + \omega^2/4) \pi + \frac12 p \times v, p)$ with $p = (1 - \omega J/2) q$.
+    /// Cayley's: $((1 + \omega^2/4) \pi + \frac12 p \times v, p)$ with $p = (1 - \omega J/2) q$.
     #[inline(always)]
-    fn dcay_inv_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+    fn d_left_inv_dual<R: Retraction>(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        if R::CHART == Chart::Exp {
+            return polynomial_dual::<Self>(xi, mu, &Self::dexp_inv_coefficients(xi));
+        }
         let ((w, v), (angular, q)) = (split(xi.0), split(mu.0));
         let p = half_turned(-w, q);
-        let Cotangent([angular]) = SO2::dcay_inv_dual(&Tangent([w]), &Cotangent([angular]));
-        Cotangent(join(angular + S::from_f64(0.5) * cross(p, v), p))
+        let angular = SO2::d_left_inv_dual::<Cayley>(&Tangent([w]), &Cotangent([angular]));
+        Cotangent(join(angular[0] + S::from_f64(0.5) * cross(p, v), p))
     }
 
-    /// $\frac12 (\omega \pi \alpha + (u - \frac12 \alpha J v) \times q, \alpha J p)$ with $p = (1 - \omega J/2) q$.
+    /// Cayley's: $\frac12 (\omega \pi \alpha + (u - \frac12 \alpha J v) \times q, \alpha J p)$ with $p = (1 - \omega J/2) q$.
     #[inline(always)]
-    fn dcay_inv_gradient(
+    fn d_left_inv_gradient<R: Retraction>(
         xi: &Tangent<3, S>,
         mu: &Cotangent<3, S>,
         eta: &Tangent<3, S>,
     ) -> Cotangent<3, S> {
+        if R::CHART == Chart::Exp {
+            return Self::dexp_inv_gradient(xi, mu, eta);
+        }
         let ((w, v), (angular, q), (a, u)) = (split(xi.0), split(mu.0), split(eta.0));
         let half = S::from_f64(0.5);
         let moved = add(u, turn(-(a * half), v));
@@ -341,10 +313,7 @@ impl<S: Scalar> LieGroup for SE2<S> {
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         let increment = self.rotation.rotate(f.translation);
-        let sums = self.translation.iter_mut().zip(&mut carry.translation);
-        for ((x, carry), increment) in sums.zip(increment) {
-            kahan::add(x, increment, carry);
-        }
+        add_all_compensated(&mut self.translation, increment, &mut carry.translation);
         self.rotation.advance(&f.rotation, &mut carry.rotation);
     }
 

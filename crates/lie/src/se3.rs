@@ -1,9 +1,11 @@
 //! SE(3): rigid displacements of space.
 
-use crate::kahan;
+use crate::numeric::add_all_compensated;
+use crate::series::{polynomial, polynomial_dual, polynomial_gradient};
 use crate::stumpff::{stumpff, stumpff_next};
 use crate::{
-    Cotangent, LieGroup, NotUnique, OutsideChart, Over, SO3, Scalar, Tangent, Units, Vec3,
+    Cayley, Chart, Cotangent, Exp, LieGroup, NotUnique, OutsideChart, Over, Retraction, SO3,
+    Scalar, Tangent, Units, Vec3,
 };
 
 /// A rigid displacement $y \mapsto R y + x$, the semidirect product $SO(3) \ltimes \mathbb{R}^3$.
@@ -62,26 +64,6 @@ impl<S: Scalar> SE3<S> {
         (v + w.cross(v) * S::from_f64(0.5) + w * (w.dot(v) * quarter)) * scale
     }
 
-    /// $\eta + \sum_k a_k \mathrm{ad}\_\xi^k \eta$ for $k = 1, \dots, 4$.
-    #[inline(always)]
-    fn ad_polynomial(xi: &Tangent<6, S>, eta: &Tangent<6, S>, a: [S; 4]) -> Tangent<6, S> {
-        let mut power = *eta;
-        a.into_iter().fold(*eta, |sum, a| {
-            power = Self::bracket(xi, &power);
-            sum + power * a
-        })
-    }
-
-    /// The transpose of [the polynomial in $\mathrm{ad}$](Self::ad_polynomial): the same one in $\mathrm{ad}^\ast$.
-    #[inline(always)]
-    fn coad_polynomial(xi: &Tangent<6, S>, mu: &Cotangent<6, S>, a: [S; 4]) -> Cotangent<6, S> {
-        let mut power = *mu;
-        a.into_iter().fold(*mu, |sum, a| {
-            power = Self::coadjoint_bracket(xi, &power);
-            sum + power * a
-        })
-    }
-
     /// A polynomial of degree 4 in $\mathrm{ad}\_\xi$, whose minimal polynomial is $\lambda(\lambda^2 + \theta^2)^2$:
     /// J. M. Selig, *Geometric Fundamentals of Robotics* (2005), ch. 4, rewritten in Stumpff functions.
     #[inline(always)]
@@ -118,6 +100,19 @@ impl<S: Scalar> SE3<S> {
         let ([c7, c8], c) = (stumpff_next(x, [c5, c6]), S::from_f64);
         let numerator = c6 - c(9.0) * c7 + c(24.0) * c8 + c(4.0) * (c3 - c4 - c4) * b4;
         numerator / (c(8.0) * c2)
+    }
+
+    #[inline(always)]
+    fn dexp_inv_gradient(
+        xi: &Tangent<6, S>,
+        mu: &Cotangent<6, S>,
+        eta: &Tangent<6, S>,
+    ) -> Cotangent<6, S> {
+        let ((w, _), b) = (xi.split(), Self::dexp_inv_coefficients(xi));
+        let (gradient, in_b) = polynomial_gradient::<Self, 4>(xi, mu, eta, &b);
+        let x = w.norm_squared();
+        let along = Self::dexp_inv_slope(x, b[3]) * (x * in_b[1] + in_b[3]);
+        gradient + (w * (along + along), Vec3::zero()).into()
     }
 }
 
@@ -170,7 +165,7 @@ impl<S: Scalar> LieGroup for SE3<S> {
     fn log(&self) -> Result<Tangent<6, S>, NotUnique<Tangent<6, S>>> {
         let with_translation = |w: Tangent<3, S>| {
             // The inverse of the right-trivialised differential takes x back to v.
-            let v = SO3::dexp_inv(&-w, &self.translation.into());
+            let v = SO3::d_right_inv::<Exp>(&w, &self.translation.into());
             Tangent::from((w.vec3(), v.vec3()))
         };
         match self.rotation.log() {
@@ -209,11 +204,6 @@ impl<S: Scalar> LieGroup for SE3<S> {
     }
 
     #[inline(always)]
-    fn identity_like(&self) -> Self {
-        Self::identity()
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
         let (angular, linear) = mu.split();
         let r = &self.rotation;
@@ -230,50 +220,6 @@ impl<S: Scalar> LieGroup for SE3<S> {
         (angular.cross(w) + linear.cross(v), linear.cross(w)).into()
     }
 
-    #[inline(always)]
-    fn dexp(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
-        Self::ad_polynomial(xi, eta, Self::dexp_coefficients(xi))
-    }
-
-    #[inline(always)]
-    fn dexp_inv(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
-        Self::ad_polynomial(xi, eta, Self::dexp_inv_coefficients(xi))
-    }
-
-    #[inline(always)]
-    fn dexp_dual(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
-        Self::coad_polynomial(xi, mu, Self::dexp_coefficients(xi))
-    }
-
-    #[inline(always)]
-    fn dexp_inv_dual(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
-        Self::coad_polynomial(xi, mu, Self::dexp_inv_coefficients(xi))
-    }
-
-    /// Of $\sum_k b_k \langle\mu, t_k\rangle$ with $t_k = \mathrm{ad}\_\xi t_{k-1}$, backwards: $\langle\lambda_k, t_k\rangle$ with
-    /// $\lambda_k = b_k \mu + \mathrm{ad}^\ast_\xi \lambda_{k+1}$ gives $-\mathrm{ad}^\ast_{t_{k-1}} \lambda_k$; then that of the $b_k$.
-    #[inline(always)]
-    fn dexp_inv_gradient(
-        xi: &Tangent<6, S>,
-        mu: &Cotangent<6, S>,
-        eta: &Tangent<6, S>,
-    ) -> Cotangent<6, S> {
-        let ((w, _), b) = (xi.split(), Self::dexp_inv_coefficients(xi));
-        let mut terms = [*eta; 5];
-        for k in 1..5 {
-            terms[k] = Self::bracket(xi, &terms[k - 1]);
-        }
-        let x = w.norm_squared();
-        let along = Self::dexp_inv_slope(x, b[3]) * (x * mu.pair(&terms[2]) + mu.pair(&terms[4]));
-        let mut gradient = Cotangent::from((w * (along + along), Vec3::zero()));
-        let mut lambda = Cotangent::zero();
-        for k in (1..5).rev() {
-            lambda = *mu * b[k - 1] + Self::coadjoint_bracket(xi, &lambda);
-            gradient = gradient - Self::coadjoint_bracket(&terms[k - 1], &lambda);
-        }
-        gradient
-    }
-
     /// The Cayley map of the 4×4 matrices: $(\mathrm{cay}(\omega), (1 - \hat\omega/2)^{-1} v)$.
     #[inline(always)]
     fn cayley(xi: &Tangent<6, S>) -> Self {
@@ -288,62 +234,75 @@ impl<S: Scalar> LieGroup for SE3<S> {
         Ok((w, v).into())
     }
 
-    /// $(\mathrm d\mathrm{cay}_\omega \eta, (1 + \hat\omega/2)^{-1} (u + \frac12 \eta \times x))$ with $x$ the translation of $\mathrm{cay}(\omega, v)$.
+    /// Cayley's: $(\mathrm d\mathrm{cay}_\omega \eta, (1 + \hat\omega/2)^{-1} (u + \frac12 \eta \times x))$ with $x$ the
+    /// translation of $\mathrm{cay}(\omega, v)$.
     #[inline(always)]
-    fn dcay(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
+    fn d_left<R: Retraction>(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
+        if R::CHART == Chart::Exp {
+            return polynomial::<Self>(xi, eta, &Self::dexp_coefficients(xi));
+        }
         let ((w, v), (eta, u)) = (xi.split(), eta.split());
         let moved = u + eta.cross(Self::cayley_translation(w, v)) * S::from_f64(0.5);
-        (
-            SO3::dcay(&w.into(), &eta.into()).vec3(),
-            Self::cayley_translation(-w, moved),
-        )
-            .into()
+        let angular = SO3::d_left::<Cayley>(&w.into(), &eta.into()).vec3();
+        (angular, Self::cayley_translation(-w, moved)).into()
     }
 
     #[inline(always)]
-    fn dcay_inv(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
+    fn d_left_inv<R: Retraction>(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
+        if R::CHART == Chart::Exp {
+            return polynomial::<Self>(xi, eta, &Self::dexp_inv_coefficients(xi));
+        }
         let ((w, v), (omega, u)) = (xi.split(), eta.split());
         let half = S::from_f64(0.5);
-        let angular = SO3::dcay_inv(&w.into(), &omega.into()).vec3();
+        let angular = SO3::d_left_inv::<Cayley>(&w.into(), &omega.into()).vec3();
         let x = Self::cayley_translation(w, v);
         (angular, u + w.cross(u) * half - angular.cross(x) * half).into()
     }
 
-    /// $((\mathrm d\mathrm{cay}_\omega)^\ast \pi + \frac12 x \times p, p)$ with $p = (1 - \hat\omega/2)^{-1} q$ and $x$ the
-    /// translation of $\mathrm{cay}(\omega, v)$.
+    /// Cayley's: $((\mathrm d\mathrm{cay}_\omega)^\ast \pi + \frac12 x \times p, p)$ with $p = (1 - \hat\omega/2)^{-1} q$ and
+    /// $x$ the translation of $\mathrm{cay}(\omega, v)$.
     #[inline(always)]
-    fn dcay_dual(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
+    fn d_left_dual<R: Retraction>(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
+        if R::CHART == Chart::Exp {
+            return polynomial_dual::<Self>(xi, mu, &Self::dexp_coefficients(xi));
+        }
         let ((w, v), (angular, q)) = (xi.split(), mu.split());
         let (p, x) = (
             Self::cayley_translation(w, q),
             Self::cayley_translation(w, v),
         );
-        let angular = SO3::dcay_dual(&w.into(), &angular.into()).vec3();
+        let angular = SO3::d_left_dual::<Cayley>(&w.into(), &angular.into()).vec3();
         (angular + x.cross(p) * S::from_f64(0.5), p).into()
     }
 
-    /// $((\mathrm d\mathrm{cay}_\omega^{-1})^\ast \pi + \frac12 p \times v, p)$ with $p = (1 - \hat\omega/2) q$.
+    /// Cayley's: $((\mathrm d\mathrm{cay}_\omega^{-1})^\ast \pi + \frac12 p \times v, p)$ with $p = (1 - \hat\omega/2) q$.
     #[inline(always)]
-    fn dcay_inv_dual(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
+    fn d_left_inv_dual<R: Retraction>(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
+        if R::CHART == Chart::Exp {
+            return polynomial_dual::<Self>(xi, mu, &Self::dexp_inv_coefficients(xi));
+        }
         let ((w, v), (angular, q)) = (xi.split(), mu.split());
         let half = S::from_f64(0.5);
         let p = q - w.cross(q) * half;
-        let angular = SO3::dcay_inv_dual(&w.into(), &angular.into()).vec3();
+        let angular = SO3::d_left_inv_dual::<Cayley>(&w.into(), &angular.into()).vec3();
         (angular + p.cross(v) * half, p).into()
     }
 
-    /// SO(3)'s in $(\omega, \pi, \alpha)$ and that of $p \cdot u'$ with $p = (1 - \hat\omega/2) q$, $u' = u - \frac12 \alpha \times v$:
-    /// $\frac12 (u' \times q, \alpha \times p)$.
+    /// Cayley's: SO(3)'s in $(\omega, \pi, \alpha)$ and that of $p \cdot u'$ with $p = (1 - \hat\omega/2) q$,
+    /// $u' = u - \frac12 \alpha \times v$: $\frac12 (u' \times q, \alpha \times p)$.
     #[inline(always)]
-    fn dcay_inv_gradient(
+    fn d_left_inv_gradient<R: Retraction>(
         xi: &Tangent<6, S>,
         mu: &Cotangent<6, S>,
         eta: &Tangent<6, S>,
     ) -> Cotangent<6, S> {
+        if R::CHART == Chart::Exp {
+            return Self::dexp_inv_gradient(xi, mu, eta);
+        }
         let ((w, v), (angular, q), (a, u)) = (xi.split(), mu.split(), eta.split());
         let half = S::from_f64(0.5);
         let (p, moved) = (q - w.cross(q) * half, u - a.cross(v) * half);
-        let rotation = SO3::dcay_inv_gradient(&w.into(), &angular.into(), &a.into());
+        let rotation = SO3::d_left_inv_gradient::<Cayley>(&w.into(), &angular.into(), &a.into());
         (rotation.vec3() + moved.cross(q) * half, a.cross(p) * half).into()
     }
 
@@ -362,11 +321,8 @@ impl<S: Scalar> LieGroup for SE3<S> {
 
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
-        let increment = self.rotation.rotate(f.translation);
-        for i in 0..3 {
-            let (x, carry) = (&mut self.translation[i], &mut carry.translation[i]);
-            kahan::add(x, increment[i], carry);
-        }
+        let (x, carried) = (&mut self.translation.0, &mut carry.translation.0);
+        add_all_compensated(x, self.rotation.rotate(f.translation).0, carried);
         self.rotation.advance(&f.rotation, &mut carry.rotation);
     }
 

@@ -1,7 +1,9 @@
 //! SO(2): rotations of the plane.
 
-use crate::kahan;
-use crate::{Cotangent, LieGroup, NotUnique, OutsideChart, Over, Scalar, Tangent, Units};
+use crate::numeric::add_compensated;
+use crate::{
+    Chart, Cotangent, LieGroup, NotUnique, OutsideChart, Over, Retraction, Scalar, Tangent, Units,
+};
 
 /// A rotation of the plane, held as $(\cos\theta, \sin\theta)$.
 ///
@@ -126,6 +128,24 @@ impl<S: Scalar> SO2<S> {
     fn cayley_divisor(xi: S) -> S {
         S::one() + xi * xi * S::from_f64(0.25)
     }
+
+    /// $\mathrm d\tau_\xi$, a number: $1$, or $1 / (1 + \xi^2/4)$.
+    #[inline(always)]
+    fn d_tau<R: Retraction>(xi: S, x: S) -> S {
+        match R::CHART {
+            Chart::Exp => x,
+            Chart::Cayley => x / Self::cayley_divisor(xi),
+        }
+    }
+
+    /// $\mathrm d\tau_\xi^{-1}$.
+    #[inline(always)]
+    fn d_tau_inv<R: Retraction>(xi: S, x: S) -> S {
+        match R::CHART {
+            Chart::Exp => x,
+            Chart::Cayley => x * Self::cayley_divisor(xi),
+        }
+    }
 }
 
 impl<S: Scalar> LieGroup for SO2<S> {
@@ -194,11 +214,6 @@ impl<S: Scalar> LieGroup for SO2<S> {
     }
 
     #[inline(always)]
-    fn identity_like(&self) -> Self {
-        Self::identity()
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<1, S>) -> Cotangent<1, S> {
         *mu
     }
@@ -206,16 +221,6 @@ impl<S: Scalar> LieGroup for SO2<S> {
     #[inline(always)]
     fn coadjoint_bracket(_: &Tangent<1, S>, _: &Cotangent<1, S>) -> Cotangent<1, S> {
         Cotangent::zero()
-    }
-
-    #[inline(always)]
-    fn dexp(_: &Tangent<1, S>, eta: &Tangent<1, S>) -> Tangent<1, S> {
-        *eta
-    }
-
-    #[inline(always)]
-    fn dexp_inv(_: &Tangent<1, S>, eta: &Tangent<1, S>) -> Tangent<1, S> {
-        *eta
     }
 
     /// $(1 - \xi^2/4, \xi) / (1 + \xi^2/4)$: the rotation by $2 \arctan(\xi/2)$.
@@ -238,55 +243,37 @@ impl<S: Scalar> LieGroup for SO2<S> {
         Ok(Tangent([(numerator + numerator) / denominator]))
     }
 
-    /// $\eta / (1 + \xi^2/4)$.
     #[inline(always)]
-    fn dcay(xi: &Tangent<1, S>, eta: &Tangent<1, S>) -> Tangent<1, S> {
-        Tangent([eta[0] / Self::cayley_divisor(xi[0])])
-    }
-
-    /// $(1 + \xi^2/4) \eta$.
-    #[inline(always)]
-    fn dcay_inv(xi: &Tangent<1, S>, eta: &Tangent<1, S>) -> Tangent<1, S> {
-        Tangent([eta[0] * Self::cayley_divisor(xi[0])])
+    fn d_left<R: Retraction>(xi: &Tangent<1, S>, eta: &Tangent<1, S>) -> Tangent<1, S> {
+        Tangent([Self::d_tau::<R>(xi[0], eta[0])])
     }
 
     #[inline(always)]
-    fn dexp_dual(_: &Tangent<1, S>, mu: &Cotangent<1, S>) -> Cotangent<1, S> {
-        *mu
+    fn d_left_inv<R: Retraction>(xi: &Tangent<1, S>, eta: &Tangent<1, S>) -> Tangent<1, S> {
+        Tangent([Self::d_tau_inv::<R>(xi[0], eta[0])])
     }
 
     #[inline(always)]
-    fn dexp_inv_dual(_: &Tangent<1, S>, mu: &Cotangent<1, S>) -> Cotangent<1, S> {
-        *mu
+    fn d_left_dual<R: Retraction>(xi: &Tangent<1, S>, mu: &Cotangent<1, S>) -> Cotangent<1, S> {
+        Cotangent([Self::d_tau::<R>(xi[0], mu[0])])
     }
 
     #[inline(always)]
-    fn dexp_inv_gradient(
-        _: &Tangent<1, S>,
-        _: &Cotangent<1, S>,
-        _: &Tangent<1, S>,
-    ) -> Cotangent<1, S> {
-        Cotangent::zero()
+    fn d_left_inv_dual<R: Retraction>(xi: &Tangent<1, S>, mu: &Cotangent<1, S>) -> Cotangent<1, S> {
+        Cotangent([Self::d_tau_inv::<R>(xi[0], mu[0])])
     }
 
+    /// Zero, or $\frac12 \mu \xi \eta$.
     #[inline(always)]
-    fn dcay_dual(xi: &Tangent<1, S>, mu: &Cotangent<1, S>) -> Cotangent<1, S> {
-        Cotangent([mu[0] / Self::cayley_divisor(xi[0])])
-    }
-
-    #[inline(always)]
-    fn dcay_inv_dual(xi: &Tangent<1, S>, mu: &Cotangent<1, S>) -> Cotangent<1, S> {
-        Cotangent([mu[0] * Self::cayley_divisor(xi[0])])
-    }
-
-    /// $\frac12 \mu \xi \eta$.
-    #[inline(always)]
-    fn dcay_inv_gradient(
+    fn d_left_inv_gradient<R: Retraction>(
         xi: &Tangent<1, S>,
         mu: &Cotangent<1, S>,
         eta: &Tangent<1, S>,
     ) -> Cotangent<1, S> {
-        Cotangent([mu[0] * xi[0] * eta[0] * S::from_f64(0.5)])
+        match R::CHART {
+            Chart::Exp => Cotangent::zero(),
+            Chart::Cayley => Cotangent([mu[0] * xi[0] * eta[0] * S::from_f64(0.5)]),
+        }
     }
 
     /// The half angle's larger part from $\frac12 (1 + |\cos\theta|)$, the smaller one from $\sin\theta$.
@@ -315,8 +302,8 @@ impl<S: Scalar> LieGroup for SO2<S> {
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         let (c, s, less) = (self.cos, self.sin, f.cos_minus_one());
-        kahan::add(&mut self.cos, c * less - s * f.sin, &mut carry.cos);
-        kahan::add(&mut self.sin, s * less + c * f.sin, &mut carry.sin);
+        add_compensated(&mut self.cos, c * less - s * f.sin, &mut carry.cos);
+        add_compensated(&mut self.sin, s * less + c * f.sin, &mut carry.sin);
     }
 
     /// One Newton step for the unit length, $z \leftarrow \frac12 z (3 - |z|^2)$.

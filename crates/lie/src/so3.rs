@@ -1,10 +1,10 @@
 //! SO(3): rotations of space.
 
-use crate::kahan;
+use crate::numeric::add_all_compensated;
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
 use crate::{
-    Cotangent, LieGroup, Mat3, NotARotation, NotUnique, OutsideChart, Over, Scalar, Tangent, Units,
-    Vec3,
+    Chart, Cotangent, LieGroup, Mat3, NotARotation, NotUnique, OutsideChart, Over, Retraction,
+    Scalar, Tangent, Units, Vec3,
 };
 
 /// A rotation, held as its matrix $R$.
@@ -186,6 +186,25 @@ impl<S: Scalar> SO3<S> {
     fn cayley_scale(xi: Vec3<S>) -> S {
         S::one() / xi.norm_squared().mul_add(S::from_f64(0.25), S::one())
     }
+
+    #[inline(always)]
+    fn dexp(w: Vec3<S>, eta: Vec3<S>) -> Vec3<S> {
+        let [_, c2, c3, ..] = stumpff(w.norm_squared());
+        let once = w.cross(eta);
+        eta - once * c2 + w.cross(once) * c3
+    }
+
+    #[inline(always)]
+    fn dexp_inv(w: Vec3<S>, eta: Vec3<S>) -> Vec3<S> {
+        let [factor, _] = dexp_inv_factor(w.norm_squared());
+        let once = w.cross(eta);
+        eta + once * S::from_f64(0.5) + w.cross(once) * factor
+    }
+
+    #[inline(always)]
+    fn dcay_dual(w: Vec3<S>, mu: Vec3<S>) -> Vec3<S> {
+        (mu + (w * S::from_f64(0.5)).cross(mu)) * Self::cayley_scale(w)
+    }
 }
 
 /// $R - I = \hat s + \frac{1}{1 + \cos\theta} \hat s^2$ with $\hat s = \frac12 (R - R^T)$, for products with vectors.
@@ -307,11 +326,6 @@ impl<S: Scalar> LieGroup for SO3<S> {
     }
 
     #[inline(always)]
-    fn identity_like(&self) -> Self {
-        Self::identity()
-    }
-
-    #[inline(always)]
     fn coadjoint(&self, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
         self.inverse_rotate(mu.vec3()).into()
     }
@@ -319,24 +333,6 @@ impl<S: Scalar> LieGroup for SO3<S> {
     #[inline(always)]
     fn coadjoint_bracket(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
         mu.vec3().cross(xi.vec3()).into()
-    }
-
-    /// $1 - c_2 \hat\xi + c_3 \hat\xi^2$.
-    #[inline(always)]
-    fn dexp(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
-        let (w, eta) = (xi.vec3(), eta.vec3());
-        let [_, c2, c3, ..] = stumpff(w.norm_squared());
-        let once = w.cross(eta);
-        (eta - once * c2 + w.cross(once) * c3).into()
-    }
-
-    /// $1 + \frac12 \hat\xi + \frac{1 - \frac\theta2 \cot\frac\theta2}{\theta^2} \hat\xi^2$, the last factor as $(c_3 - 2 c_4)/(2 c_2)$.
-    #[inline(always)]
-    fn dexp_inv(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
-        let (w, eta) = (xi.vec3(), eta.vec3());
-        let [factor, _] = dexp_inv_factor(w.norm_squared());
-        let once = w.cross(eta);
-        (eta + once * S::from_f64(0.5) + w.cross(once) * factor).into()
     }
 
     /// $I + \frac{1}{1 + |\xi|^2/4} \left(\hat\xi + \frac12 \hat\xi^2\right)$: the rotation by $2 \arctan(|\xi|/2)$.
@@ -364,75 +360,78 @@ impl<S: Scalar> LieGroup for SO3<S> {
         Ok((self.matrix.skew_vee() * (S::from_f64(2.0) / denominator)).into())
     }
 
-    /// $\frac{1}{1 + |\xi|^2/4} \left(1 - \frac12 \hat\xi\right)$.
+    /// $1 - c_2 \hat\xi + c_3 \hat\xi^2$, or $\frac{1}{1 + |\xi|^2/4} \left(1 - \frac12 \hat\xi\right)$: the transpose at
+    /// $-\xi$, for $\hat\xi^T = -\hat\xi$.
     #[inline(always)]
-    fn dcay(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
-        Self::dcay_dual(&-*xi, &eta.vec3().into()).vec3().into()
+    fn d_left<R: Retraction>(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+        let (w, eta) = (xi.vec3(), eta.vec3());
+        match R::CHART {
+            Chart::Exp => Self::dexp(w, eta).into(),
+            Chart::Cayley => Self::dcay_dual(-w, eta).into(),
+        }
     }
 
+    /// The transpose of [`d_left`](LieGroup::d_left), likewise.
+    #[inline(always)]
+    fn d_left_dual<R: Retraction>(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        let (w, mu) = (xi.vec3(), mu.vec3());
+        match R::CHART {
+            Chart::Exp => Self::dexp(-w, mu).into(),
+            Chart::Cayley => Self::dcay_dual(w, mu).into(),
+        }
+    }
+
+    /// $1 + \frac12 \hat\xi + g(|\xi|^2) \hat\xi^2$ with $g$ of [`dexp_inv_factor`], or
     /// $1 + \frac12 \hat\xi + \frac14 \xi \xi^T$.
     #[inline(always)]
-    fn dcay_inv(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
+    fn d_left_inv<R: Retraction>(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
         let (w, eta) = (xi.vec3(), eta.vec3());
-        let half = w * S::from_f64(0.5);
-        let along = half.dot(eta) * S::from_f64(0.5);
-        (eta + half.cross(eta)).plus(along, w).into()
+        match R::CHART {
+            Chart::Exp => Self::dexp_inv(w, eta).into(),
+            Chart::Cayley => {
+                let half = w * S::from_f64(0.5);
+                let along = half.dot(eta) * S::from_f64(0.5);
+                (eta + half.cross(eta)).plus(along, w).into()
+            }
+        }
     }
 
-    /// $\mathrm d\exp_{-\xi}$ as a matrix, for $\hat\xi^T = -\hat\xi$.
     #[inline(always)]
-    fn dexp_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
-        Self::dexp(&-*xi, &mu.vec3().into()).vec3().into()
+    fn d_left_inv_dual<R: Retraction>(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
+        let (w, mu) = (xi.vec3(), mu.vec3());
+        match R::CHART {
+            Chart::Exp => Self::dexp_inv(-w, mu).into(),
+            Chart::Cayley => {
+                let half = w * S::from_f64(0.5);
+                let along = half.dot(mu) * S::from_f64(0.5);
+                (mu + mu.cross(half)).plus(along, w).into()
+            }
+        }
     }
 
+    /// $\frac12 \eta \times \mu + g (\mu (\xi\cdot\eta) + \eta (\xi\cdot\mu) - 2 \xi (\mu\cdot\eta)) + 2 g' \xi\, \mu\cdot\hat\xi^2\eta$,
+    /// or $\frac12 \eta \times \mu + \frac14 (\mu (\xi\cdot\eta) + \eta (\xi\cdot\mu))$.
     #[inline(always)]
-    fn dexp_inv_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
-        Self::dexp_inv(&-*xi, &mu.vec3().into()).vec3().into()
-    }
-
-    /// $\frac12 \eta \times \mu + g (\mu (\xi\cdot\eta) + \eta (\xi\cdot\mu) - 2 \xi (\mu\cdot\eta)) + 2 g' \xi\, \mu\cdot\hat\xi^2\eta$
-    /// for $\mathrm d\exp_\xi^{-1} = 1 + \frac12 \hat\xi + g(|\xi|^2) \hat\xi^2$.
-    #[inline(always)]
-    fn dexp_inv_gradient(
+    fn d_left_inv_gradient<R: Retraction>(
         xi: &Tangent<3, S>,
         mu: &Cotangent<3, S>,
         eta: &Tangent<3, S>,
     ) -> Cotangent<3, S> {
         let (w, mu, eta) = (xi.vec3(), mu.vec3(), eta.vec3());
-        let [factor, slope] = dexp_inv_factor(w.norm_squared());
-        let (both, twice) = (mu.dot(eta), mu.dot(w.cross(w.cross(eta))));
-        let along = slope * twice - factor * both;
-        let products = mu * w.dot(eta) + eta * w.dot(mu);
-        (eta.cross(mu) * S::from_f64(0.5) + products * factor + w * (along + along)).into()
-    }
-
-    /// $\frac{1}{1 + |\xi|^2/4} \left(1 + \frac12 \hat\xi\right)$.
-    #[inline(always)]
-    fn dcay_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
-        let (w, mu) = (xi.vec3(), mu.vec3());
-        ((mu + (w * S::from_f64(0.5)).cross(mu)) * Self::cayley_scale(w)).into()
-    }
-
-    /// $1 - \frac12 \hat\xi + \frac14 \xi \xi^T$.
-    #[inline(always)]
-    fn dcay_inv_dual(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
-        let (w, mu) = (xi.vec3(), mu.vec3());
-        let half = w * S::from_f64(0.5);
-        let along = half.dot(mu) * S::from_f64(0.5);
-        (mu + mu.cross(half)).plus(along, w).into()
-    }
-
-    /// $\frac12 \eta \times \mu + \frac14 (\mu (\xi\cdot\eta) + \eta (\xi\cdot\mu))$.
-    #[inline(always)]
-    fn dcay_inv_gradient(
-        xi: &Tangent<3, S>,
-        mu: &Cotangent<3, S>,
-        eta: &Tangent<3, S>,
-    ) -> Cotangent<3, S> {
-        let (w, mu, eta) = (xi.vec3(), mu.vec3(), eta.vec3());
-        let (half, quarter) = (eta * S::from_f64(0.5), w * S::from_f64(0.25));
-        let turned = half.cross(mu).plus(quarter.dot(eta), mu);
-        turned.plus(quarter.dot(mu), eta).into()
+        match R::CHART {
+            Chart::Exp => {
+                let [factor, slope] = dexp_inv_factor(w.norm_squared());
+                let (both, twice) = (mu.dot(eta), mu.dot(w.cross(w.cross(eta))));
+                let along = slope * twice - factor * both;
+                let products = mu * w.dot(eta) + eta * w.dot(mu);
+                (eta.cross(mu) * S::from_f64(0.5) + products * factor + w * (along + along)).into()
+            }
+            Chart::Cayley => {
+                let (half, quarter) = (eta * S::from_f64(0.5), w * S::from_f64(0.25));
+                let turned = half.cross(mu).plus(quarter.dot(eta), mu);
+                turned.plus(quarter.dot(mu), eta).into()
+            }
+        }
     }
 
     /// By [the quaternion](Self::to_quaternion), which is accurate at every angle.
@@ -455,9 +454,9 @@ impl<S: Scalar> LieGroup for SO3<S> {
     #[inline(always)]
     fn advance(&mut self, f: &Self, carry: &mut Self) {
         let increment = self.matrix * f.minus_identity();
-        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-            let (entry, carry) = (&mut self.matrix[(i, j)], &mut carry.matrix[(i, j)]);
-            kahan::add(entry, increment[(i, j)], carry);
+        let rows = self.matrix.0.iter_mut().zip(&mut carry.matrix.0);
+        for ((row, carry), increment) in rows.zip(increment.0) {
+            add_all_compensated(row, increment, carry);
         }
     }
 

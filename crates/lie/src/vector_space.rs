@@ -5,6 +5,7 @@ use core::ops::{Add, Index, IndexMut, Mul, Neg, Sub};
 
 use num_traits::Zero;
 
+use crate::numeric::larger;
 use crate::{Scalar, Vec3};
 
 /// A finite-dimensional real vector space with fixed coordinates: a Lie algebra or its dual.
@@ -90,7 +91,7 @@ pub trait VectorSpace: Clone + Debug + PartialEq + Send + Sync + 'static {
     #[inline(always)]
     fn max_magnitude(&self) -> f64 {
         let coordinates = (0..self.dim()).map(|i| self.get(i).magnitude());
-        coordinates.fold(0.0, |a: f64, b| if a >= b || a.is_nan() { a } else { b })
+        coordinates.fold(0.0, larger)
     }
 
     /// Whether the two have the same number of coordinates, block by block.

@@ -1,7 +1,7 @@
 //! What steps a scene: a method, or what a pilot run finds for an accuracy.
 
 use articulated_fluid::{Configuration, Smallest};
-use dvi::{DiscreteLagrangian, Pilot, PilotError};
+use dvi::{Pilot, PilotError};
 
 use crate::method::{BoxedIntegrator, Method, Model};
 
@@ -94,13 +94,18 @@ impl From<Pilot> for Chosen {
 
 impl Chosen {
     /// The integrator of a model.
-    pub fn integrator<M: Model>(
-        &self,
-        model: M,
-    ) -> BoxedIntegrator<<M as DiscreteLagrangian>::Group> {
+    pub fn integrator<M: Model>(&self, model: M) -> BoxedIntegrator<M::Group> {
         match &self.pilot {
             Some(pilot) => pilot.integrator(model),
             None => self.method.integrator(model),
+        }
+    }
+
+    /// The same with all coordinates among the unknowns of a step.
+    pub fn integrator_in_full<M: Model>(&self, model: M) -> BoxedIntegrator<M::Group> {
+        match &self.pilot {
+            Some(pilot) => pilot.integrator(model),
+            None => self.method.integrator_in_full(model),
         }
     }
 

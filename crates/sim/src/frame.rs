@@ -9,7 +9,7 @@ use lie::{LieGroup, SO3, Vec3};
 pub struct Frame {
     /// Time, configuration and momentum.
     pub state: State<Configuration>,
-    /// The velocity $\xi = (\Omega_0, \dot x, \Omega_1, \dots)$, rad/s and m/s.
+    /// The velocity $\xi = ((\Omega_0, \dots, \Omega_n), \dot x)$, rad/s and m/s.
     pub velocity: <Configuration as LieGroup>::Algebra,
     /// The conserved quantities.
     pub sample: Sample,
@@ -33,31 +33,23 @@ impl Frame {
 
     /// The number of bodies.
     pub fn bodies(&self) -> usize {
-        1 + self.state.g.2.len()
+        self.state.g.0.len()
     }
 
     /// The mass centre of the first body, m, reference frame.
     pub fn position(&self) -> Vec3 {
-        self.state.g.1.vec3()
+        self.state.g.1[0].vec3()
     }
 
     /// The bodies' attitudes, body to reference frame, in the order of the scene.
-    pub fn attitudes(&self) -> impl Iterator<Item = &SO3> {
-        attitudes(&self.state.g)
+    pub fn attitudes(&self) -> &[SO3] {
+        &self.state.g.0
     }
 
     /// The bodies' angular velocities, rad/s, each in its body's frame.
     pub fn rates(&self) -> impl Iterator<Item = Vec3> {
-        let (head, _, tails) = &self.velocity;
-        core::iter::once(head)
-            .chain(tails.iter())
-            .map(|omega| omega.vec3())
+        self.velocity.0.iter().map(|omega| omega.vec3())
     }
-}
-
-/// The bodies' attitudes, the head's first.
-pub fn attitudes(g: &Configuration) -> impl Iterator<Item = &SO3> {
-    core::iter::once(&g.0).chain(g.2.iter())
 }
 
 /// What the motion keeps, at one time.

@@ -48,7 +48,7 @@ mod watch;
 pub use choice::{Choice, Chosen};
 pub use clock::{Clock, MAX_STEPS};
 pub use error::SimError;
-pub use frame::{Frame, Sample, attitudes};
+pub use frame::{Frame, Sample};
 pub use method::{BoxedIntegrator, Method, UnknownMethod};
 pub use report::Report;
 pub use run::{Cost, Run};

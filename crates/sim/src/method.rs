@@ -15,8 +15,7 @@ use core::str::FromStr;
 
 use articulated_fluid::{Configuration, Smallest};
 use dvi::{
-    Adjoint, Composition, ContinuousSystem, DiscreteLagrangian, Gauss, Inertia, Integrator,
-    Variational,
+    Adjoint, Composition, ContinuousSystem, DiscreteLagrangian, Gauss, Integrator, Variational,
 };
 use serde::{Serialize, Serializer};
 use thiserror::Error;
@@ -25,23 +24,9 @@ use thiserror::Error;
 pub type BoxedIntegrator<G> = Box<dyn Integrator<Group = G> + Send>;
 
 /// A model in both forms, discrete and continuous: every method steps it.
-pub trait Model:
-    Inertia<Factor: Send>
-    + ContinuousSystem<Group = <Self as DiscreteLagrangian>::Group>
-    + Clone
-    + Send
-    + 'static
-{
-}
+pub trait Model: DiscreteLagrangian + ContinuousSystem + Clone + Send + 'static {}
 
-impl<M> Model for M where
-    M: Inertia<Factor: Send>
-        + ContinuousSystem<Group = <M as DiscreteLagrangian>::Group>
-        + Clone
-        + Send
-        + 'static
-{
-}
+impl<M: DiscreteLagrangian + ContinuousSystem + Clone + Send + 'static> Model for M {}
 
 /// An integrator of a [`Model`], chosen at run time by its name; the default is the paper's.
 ///
@@ -230,26 +215,35 @@ impl Method {
     }
 
     /// The method for a model, in space or in a plane.
-    pub fn integrator<M: Model>(
-        self,
-        model: M,
-    ) -> BoxedIntegrator<<M as DiscreteLagrangian>::Group> {
-        let Entry { family, order, .. } = *self.entry();
-        match (family, order) {
-            (Family::Variational, _) => Box::new(Variational::with_inertia(model)),
-            (Family::Adjoint, _) => Box::new(Variational::new(Adjoint(model))),
-            (Family::Composition { .. }, 2) => Box::new(Composition::<_, 2>::new(model)),
-            (Family::Composition { .. }, 4) => Box::new(Composition::<_, 4>::new(model)),
-            (Family::Composition { .. }, 6) => Box::new(Composition::<_, 6>::new(model)),
-            (Family::Composition { .. }, _) => Box::new(Composition::<_, 8>::new(model)),
-            (Family::Gauss { stages: 1 }, _) => Box::new(Gauss::<_, 1>::new(model)),
-            (Family::Gauss { stages: 2 }, _) => Box::new(Gauss::<_, 2>::new(model)),
-            (Family::Gauss { stages: 3 }, _) => Box::new(Gauss::<_, 3>::new(model)),
-            (Family::Gauss { stages: 4 }, _) => Box::new(Gauss::<_, 4>::new(model)),
-            (Family::Gauss { stages: 5 }, _) => Box::new(Gauss::<_, 5>::new(model)),
-            (Family::Gauss { stages: 6 }, _) => Box::new(Gauss::<_, 6>::new(model)),
-            (Family::Gauss { stages: 7 }, _) => Box::new(Gauss::<_, 7>::new(model)),
-            (Family::Gauss { .. }, _) => Box::new(Gauss::<_, 8>::new(model)),
+    pub fn integrator<M: Model>(self, model: M) -> BoxedIntegrator<M::Group> {
+        self.make(model, false)
+    }
+
+    /// The same with all coordinates among the unknowns of a step, and none eliminated.
+    pub fn integrator_in_full<M: Model>(self, model: M) -> BoxedIntegrator<M::Group> {
+        self.make(model, true)
+    }
+
+    fn make<M: Model>(self, model: M, in_full: bool) -> BoxedIntegrator<M::Group> {
+        let order = self.order();
+        match self.family() {
+            Family::Variational if in_full => Box::new(Variational::new(model).with_all_unknowns()),
+            Family::Variational => Box::new(Variational::new(model)),
+            Family::Adjoint if in_full => {
+                Box::new(Variational::new(Adjoint(model)).with_all_unknowns())
+            }
+            Family::Adjoint => Box::new(Variational::new(Adjoint(model))),
+            Family::Composition { .. } => {
+                let made = Composition::with_order(model, order).expect("an order of the table");
+                match in_full {
+                    true => Box::new(made.with_all_unknowns()),
+                    false => Box::new(made),
+                }
+            }
+            Family::Gauss { stages } => {
+                let made = Gauss::with_stages(model, stages as usize);
+                Box::new(made.expect("as many stages as in the table"))
+            }
         }
     }
 

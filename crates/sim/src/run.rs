@@ -10,23 +10,26 @@ use crate::schedule::Due;
 /// An integrator of any group on its way from a start, by a [`Clock`].
 ///
 /// ```
-/// use dvi::{Gauss, Lagrangian};
+/// use dvi::{Context, Gauss, Lagrangian, System};
 /// use lie::{Rn, Scalar, Tangent};
 /// use sim::{Clock, Run};
 ///
 /// /// A particle of 1 kg on a spring of 1 N/m.
 /// struct Spring;
 ///
-/// impl Lagrangian for Spring {
+/// impl System for Spring {
 ///     type Group = Rn<1>;
-///     fn value<S: Scalar>(&self, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+/// }
+///
+/// impl Lagrangian for Spring {
+///     fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
 ///         (v[0] * v[0] - x.0[0] * x.0[0]) * S::from_f64(0.5)
 ///     }
 /// }
 ///
 /// let start = Spring.state(0.0, Rn([1.0]), &Tangent([0.0]))?;
 /// let clock = Clock::new(5.0, 0.5)?;
-/// let mut run = Run::new(Gauss::<_, 4>::new(Spring.hamiltonian()), start, clock);
+/// let mut run = Run::new(Gauss::new::<4>(Spring.hamiltonian()), start, clock);
 /// run.advance(clock.steps())?;
 /// assert_eq!(run.state().t, 5.0);
 /// assert!((run.state().g.0[0] - 5.0_f64.cos()).abs() < 1e-8);

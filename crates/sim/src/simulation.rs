@@ -88,7 +88,7 @@ impl Simulation {
         let clock = Clock::new(plan.until, chosen.step)?;
         plan.schedule.check(&clock)?;
         let integrator = match plan.full {
-            true => chosen.integrator(model.clone().keep_translation()),
+            true => chosen.integrator_in_full(model.clone()),
             false => chosen.integrator_of_smallest(&smallest),
         };
         let run = Run::new(integrator, scene.initial_state()?, clock);

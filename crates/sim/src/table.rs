@@ -61,7 +61,7 @@ pub const COLUMNS: &[Column] = &[
         to.copy_from_slice(&frame.position().0);
     }),
     body(&["qw", "qx", "qy", "qz"], "unit quaternion from body to reference frame, its sign continuous", |frame, i, to| {
-        let q = frame.attitudes().nth(i).map_or([0.0; 4], SO3::to_quaternion);
+        let q = frame.attitudes().get(i).map_or([0.0; 4], SO3::to_quaternion);
         to.copy_from_slice(&nearer(q, to));
     }),
     body(&["wx", "wy", "wz"], "angular velocity of the body in its own frame, rad/s", |frame, i, to| {

@@ -29,7 +29,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     println!(
         "{:>6} | {:>11} {:>8} | {:>11} {:>8} {:>10} | {:>11} {:>13} | {:>9}",
-        "bodies", "evaluation", "per body", "lgvi", "per body", "iterations", "forced", "composition-4", "memory"
+        "bodies",
+        "evaluation",
+        "per body",
+        "lgvi",
+        "per body",
+        "iterations",
+        "forced",
+        "composition-4",
+        "memory"
     );
     println!(
         "{:>6} | {:>11} {:>8} | {:>11} {:>8} {:>10} | {:>11} {:>13} | {:>9}",

@@ -25,12 +25,10 @@ impl System for Body {
 impl ContinuousSystem for Body {
     type Workspace<S: Scalar> = ();
 
-    fn workspace<S: Scalar>(&self, _: &SO3<S>) {}
-
     #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,
-        _: S,
+        _: Context<S>,
         r: &SO3<S>,
         mu: &Cotangent<3, S>,
         _: &mut (),

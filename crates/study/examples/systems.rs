@@ -27,14 +27,30 @@ struct Row<L: Lagrangian> {
 fn rows<L: Lagrangian + Clone + 'static>() -> [Row<L>; 11] {
     let row = |name, make| Row { name, make };
     [
-        row("left, Cayley", variational::<L, LeftPoint, Cayley>),
-        row("left, exp", variational::<L, LeftPoint, Exp>),
-        row("right, Cayley", variational::<L, RightPoint, Cayley>),
-        row("right, exp", variational::<L, RightPoint, Exp>),
-        row("midpoint, Cayley", variational::<L, Midpoint, Cayley>),
-        row("midpoint, exp", variational::<L, Midpoint, Exp>),
-        row("trapezoidal, Cayley", variational::<L, Trapezoid, Cayley>),
-        row("trapezoidal, exp", variational::<L, Trapezoid, Exp>),
+        row("left, Cayley", |l| {
+            variational::<L, Cayley>(l, Quadrature::LeftPoint)
+        }),
+        row("left, exp", |l| {
+            variational::<L, Exp>(l, Quadrature::LeftPoint)
+        }),
+        row("right, Cayley", |l| {
+            variational::<L, Cayley>(l, Quadrature::RightPoint)
+        }),
+        row("right, exp", |l| {
+            variational::<L, Exp>(l, Quadrature::RightPoint)
+        }),
+        row("midpoint, Cayley", |l| {
+            variational::<L, Cayley>(l, Quadrature::Midpoint)
+        }),
+        row("midpoint, exp", |l| {
+            variational::<L, Exp>(l, Quadrature::Midpoint)
+        }),
+        row("trapezoidal, Cayley", |l| {
+            variational::<L, Cayley>(l, Quadrature::Trapezoid)
+        }),
+        row("trapezoidal, exp", |l| {
+            variational::<L, Exp>(l, Quadrature::Trapezoid)
+        }),
         row("composition 4", composition::<L, 4>),
         row("Gauss, 2 stages", gauss::<L, 2>),
         row("Gauss, 4 stages", gauss::<L, 4>),

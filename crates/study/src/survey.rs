@@ -10,12 +10,12 @@
 //! | methods that are wrong on purpose | [`wrong`] |
 //!
 //! ```
-//! use dvi::Midpoint;
+//! use dvi::Quadrature;
 //! use lie::Cayley;
 //! use study::survey::{self, systems, variational};
 //!
 //! let top = systems::heavy_top()?;
-//! let mut method = variational::<_, Midpoint, Cayley>(top.lagrangian);
+//! let mut method = variational::<_, Cayley>(top.lagrangian, Quadrature::Midpoint);
 //! let run = survey::long_run(&top, &mut method, top.time / 100.0, 1000, 7)?;
 //! assert!(run.band < 1e-2 && run.momenta.iter().all(|change| *change < 1e-12));
 //! # Ok::<(), Box<dyn core::error::Error>>(())

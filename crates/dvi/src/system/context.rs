@@ -8,6 +8,10 @@ use lie::{LieGroup, RealGroup};
 ///
 /// The supertrait of [`Lagrangian`](crate::Lagrangian), [`DiscreteLagrangian`](crate::DiscreteLagrangian) and
 /// [`ContinuousSystem`](crate::ContinuousSystem). Only the group is required: `impl System for Top { type Group = SO3; }`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not implement `dvi::System`",
+    note = "write `impl System for {Self} {{ type Group = ...; }}` beside what describes it"
+)]
 pub trait System {
     /// The configuration group.
     type Group: RealGroup;
@@ -38,6 +42,10 @@ pub trait System {
 }
 
 /// What is a system by another one inside it, and differs from it in nothing that [`System`] tells but perhaps in being symplectic.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not implement `dvi::System`",
+    note = "write `impl System for {Self} {{ type Group = ...; }}` beside what describes it"
+)]
 pub trait Adapter {
     /// The system inside.
     type Inner: System;

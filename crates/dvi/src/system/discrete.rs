@@ -47,7 +47,7 @@ use crate::numerics::duals::{for_each_chunk, read_partials};
 /// ```
 pub trait DiscreteLagrangian: System {
     /// Storage of the model's own, empty at first and kept from call to call; `()` where derivatives come from dual numbers.
-    type Workspace<S: Scalar>: Default;
+    type Workspace<S: Scalar>: Default + Send + Sync;
 
     /// Whether the model solves its inertia, by the four methods from [`factorise`](Self::factorise) on.
     const HAS_INERTIA: bool = false;

@@ -13,7 +13,7 @@ pub(super) fn mean_velocity<R: Retraction, G: RealGroup, S: Scalar>(
     f: &Over<G, S>,
     h: S,
 ) -> AlgebraOver<G, S> {
-    let (mut c, inside) = match R::inverse::<Over<G, S>>(f) {
+    let (mut c, inside) = match f.retract_inverse::<R>() {
         Ok(c) => (c, true),
         Err(_) => (f.zero_algebra(), false),
     };

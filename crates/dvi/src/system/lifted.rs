@@ -1,6 +1,6 @@
 //! Dual copies of the arguments of a Lagrangian, moved along the basis of the algebra in chunks.
 
-use lie::{AlgebraOver, Jet, LieGroup, Over, RealGroup, Scalar};
+use lie::{AlgebraOver, Cayley, Jet, LieGroup, Over, RealGroup, Scalar};
 use num_traits::Zero;
 
 use super::context::Context;
@@ -85,6 +85,6 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
 
     fn step_along(&mut self, first: usize) {
         lie::seed(&mut self.zeta, first);
-        Over::<G, S::Jet>::cayley_into(&self.zeta, &mut self.small);
+        Over::<G, S::Jet>::retract_into::<Cayley>(&self.zeta, &mut self.small);
     }
 }

@@ -17,7 +17,7 @@ mod state;
 mod symmetry;
 
 pub use adjoint::{Adjoint, AdjointWorkspace};
-pub(crate) use context::{Adapter, Algebra, Dual};
+pub(crate) use context::{Algebra, Dual};
 pub use context::{Context, System};
 pub use continuous::ContinuousSystem;
 pub use discrete::{Derivatives, DiscreteLagrangian};

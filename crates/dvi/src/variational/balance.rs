@@ -1,6 +1,6 @@
 //! The momentum balance that a step solves.
 
-use lie::{AlgebraOver, Cayley, DualOver, LieGroup, Over, Retraction, Scalar, VectorSpace};
+use lie::{AlgebraOver, Cayley, DualOver, LieGroup, Over, Scalar, VectorSpace};
 
 use crate::numerics::duals::lift;
 use crate::{Context, Derivatives, DiscreteLagrangian};
@@ -42,7 +42,7 @@ impl<L: DiscreteLagrangian, S: Scalar> Balance<L, S> {
 
     #[inline(always)]
     pub(crate) fn retract(&mut self, c: &AlgebraOver<L::Group, S>) {
-        Cayley::retract_into::<Over<L::Group, S>>(c, &mut self.f);
+        Over::<L::Group, S>::retract_into::<Cayley>(c, &mut self.f);
     }
 
     /// Fills all fields from `f`.

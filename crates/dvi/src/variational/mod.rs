@@ -9,7 +9,7 @@ mod warm_start;
 
 use lie::{LieGroup, VectorSpace};
 
-use crate::step::{check, check_momentum, finite};
+use crate::step::{check_momentum, check_step, finite};
 use crate::{
     Cause, DiscreteLagrangian, FirstVariation, Hint, Integrator, Pair, State, StepError,
     StepReport, Variation, legendre_plus,
@@ -141,7 +141,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
             g: g.clone(),
             mu: g.zero_dual(),
         };
-        check(&self.lagrangian, &next, *h)?;
+        check_step(&self.lagrangian, &next, *h)?;
         next.mu = legendre_plus(&self.lagrangian, *t, g, f, *h);
         next.g = g.compose(f);
         if self.normalizes() {
@@ -214,7 +214,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
 
     /// From the extrapolated guess, and from no displacement where that leads nowhere or astray.
     fn try_to_solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, Cause> {
-        check(&self.lagrangian, state, h)?;
+        check_step(&self.lagrangian, state, h)?;
         let fits = |work: &Work<L>| work.next.same_shape(&state.g);
         if !self.work.as_ref().is_some_and(fits) {
             self.work = None;

@@ -2,9 +2,7 @@
 
 use core::ops::Range;
 
-use lie::{
-    AlgebraOver, Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace,
-};
+use lie::{AlgebraOver, Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 use super::balance::Balance;
 use crate::numerics::degenerate::without_inertia;
@@ -178,7 +176,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
             h,
             ..
         } = self;
-        Cayley::retract_into::<L::Group>(c, f);
+        L::Group::retract_into::<Cayley>(c, f);
         matrix.index(|column, out| {
             end.read(column);
             f.inverse_coadjoint_into(end, start);
@@ -224,7 +222,7 @@ fn inertia<L: DiscreteLagrangian>(
     );
     for_each_chunk(dim, |first| {
         lie::seed(&mut c, first);
-        Over::<L::Group, J>::cayley_into(&c, &mut f);
+        Over::<L::Group, J>::retract_into::<Cayley>(&c, &mut f);
         lagrangian.derivatives(at, &g, &f, step, &mut work, &mut derivatives);
         for column in first..dim.min(first + lie::JET_DIRECTIONS) {
             for row in 0..dim {

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use lie::{LieGroup, RealGroup, VectorSpace};
+use lie::{Cayley, LieGroup, RealGroup, VectorSpace};
 
 use super::balance::Balance;
 use super::matrix::Matrix;
@@ -506,7 +506,7 @@ fn weights<L: DiscreteLagrangian>(
     let mut momentum = |displacement: f64, i: usize| {
         c.set_zero();
         c.set(i, displacement);
-        L::Group::cayley_into(&c, &mut f);
+        L::Group::retract_into::<Cayley>(&c, &mut f);
         lagrangian.derivatives(at, g, &f, SHORT * h, &mut work, &mut derivatives);
         derivatives.d_f.get(i)
     };

@@ -104,7 +104,7 @@ impl Force for Brake {
 
 /// The larger of the turn between two configurations and the relative distance of their momenta.
 pub fn distance<G: lie::RealGroup>(a: &State<G>, b: &State<G>) -> f64 {
-    let turn = Exp::inverse(&a.g.inverse().compose(&b.g)).unwrap();
+    let turn = a.g.inverse().compose(&b.g).log().unwrap();
     let mut momentum = a.mu.clone();
     momentum.add_scaled(-1.0, &b.mu);
     let size = a.mu.norm_squared().sqrt();

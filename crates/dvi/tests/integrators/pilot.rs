@@ -1,7 +1,7 @@
 //! The pilot keeps its word, and says what to do where it cannot.
 
 use dvi::{Context, ContinuousSystem, Integrator, Lagrangian, Pilot, PilotError, State, System};
-use lie::{Cayley, Cotangent, LieGroup, Mat3, Retraction, Rn, SO3, Scalar, Tangent, VectorSpace};
+use lie::{Cotangent, LieGroup, Mat3, Rn, SO3, Scalar, Tangent, VectorSpace};
 
 use crate::common::{Top, top};
 
@@ -51,7 +51,7 @@ fn fly(pilot: &Pilot) -> (f64, usize) {
         let report = integrator.step(&mut state, pilot.h).expect("a step");
         sweeps += report.iterations as usize;
         let between = exact(state.t).inverse().compose(&state.g);
-        let error = Cayley::inverse(&between).expect("close");
+        let error = between.cayley_inverse().expect("close");
         worst = worst.max(error.max_magnitude());
     }
     (worst, pilot.stages * sweeps)

@@ -11,6 +11,7 @@ use core::ops::{
 use num_traits::{One, Zero};
 use pulp::{Simd, WithSimd, bytemuck};
 
+use crate::numeric::larger;
 use crate::{Batch, DualNumber, Scalar};
 
 /// The registers of an instruction set.
@@ -228,7 +229,6 @@ impl<R: Register> Scalar for Lanes<R> {
     /// The largest of them; not a number where one is not.
     #[inline(always)]
     fn magnitude(self) -> f64 {
-        let larger = |a: f64, b: f64| if a >= b || a.is_nan() { a } else { b };
         self.numbers().iter().map(|x| x.abs()).fold(0.0, larger)
     }
 }

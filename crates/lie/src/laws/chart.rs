@@ -75,12 +75,12 @@ fn products<G: LieGroup>(c: &mut Checker, g: &G, xi: &G::Algebra) -> Outcome {
 fn ends<G: LieGroup, R: Retraction>(c: &mut Checker, xi: &G::Algebra, mu: &G::Dual) -> Outcome {
     let case = || format!("{}, c = {xi:?}, momentum {mu:?}", R::NAME);
     let scale = vector_size(xi).powi(3) * vector_size(mu);
-    let element = R::retract::<G>(xi);
+    let element = G::retract::<R>(xi);
     let mut f = element.compose(&element);
     let (mut out, mut pi) = (generic(mu, 9.0), generic(mu, 9.0));
     G::chart_enter_into::<R>(xi, mu, (&mut f, &mut out));
     c.elements("chart_enter_into: f = tau(c)", &case, (&f, &element), scale)?;
-    let sides = (&out, &R::d_left_inv_dual::<G>(xi, mu));
+    let sides = (&out, &G::d_left_inv_dual::<R>(xi, mu));
     c.vectors(
         "chart_enter_into: mu = (dtau^-1_c)* pi",
         &case,
@@ -99,7 +99,7 @@ fn ends<G: LieGroup, R: Retraction>(c: &mut Checker, xi: &G::Algebra, mu: &G::Du
         (&out, &moved),
         scale,
     )?;
-    let sides = (&pi, &R::d_left_dual::<G>(xi, &moved));
+    let sides = (&pi, &G::d_left_dual::<R>(xi, &moved));
     c.vectors("chart_leave_into: pi = (dtau_c)* mu", &case, sides, scale)
 }
 
@@ -114,11 +114,11 @@ fn rates<G: LieGroup, R: Retraction>(
     let tau = generic(mu, 0.3);
     let (mut c_dot, mut pi_dot) = (generic(eta, 9.0), generic(mu, 9.0));
     G::chart_rates_into::<R>((xi, mu), (eta, &tau), (&mut c_dot, &mut pi_dot));
-    let sides = (&c_dot, &R::d_left_inv::<G>(xi, eta));
+    let sides = (&c_dot, &G::d_left_inv::<R>(xi, eta));
     c.vectors("chart_rates_into: c' = dtau^-1_c xi", &case, sides, scale)?;
-    let mut expected = R::d_left_dual::<G>(xi, &tau);
+    let mut expected = G::d_left_dual::<R>(xi, &tau);
     let minus = G::Scalar::from_f64(-1.0);
-    expected.add_scaled(minus, &R::d_left_inv_gradient::<G>(xi, mu, eta));
+    expected.add_scaled(minus, &G::d_left_inv_gradient::<R>(xi, mu, eta));
     let formula = "chart_rates_into: pi' = (dtau_c)* tau - d/dc <pi, dtau^-1_c xi>";
     c.vectors(formula, &case, (&pi_dot, &expected), scale)
 }

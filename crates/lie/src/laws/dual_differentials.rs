@@ -12,59 +12,42 @@ where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
 {
     for xi in &examples.velocities {
-        transposes::<G, Exp>(c, examples, xi, EXP)?;
-        transposes::<G, Cayley>(c, examples, xi, CAYLEY)?;
+        transposes::<G, Exp>(c, examples, xi)?;
+        transposes::<G, Cayley>(c, examples, xi)?;
     }
     for xi in &examples.velocities {
         for eta in &examples.velocities {
-            gradients::<G, Exp>(c, examples, xi, eta, EXP)?;
-            gradients::<G, Cayley>(c, examples, xi, eta, CAYLEY)?;
+            gradients::<G, Exp>(c, examples, xi, eta)?;
+            gradients::<G, Cayley>(c, examples, xi, eta)?;
         }
     }
     Ok(())
 }
 
-/// The formulas, to name them in a failure.
-struct Formulas {
-    transpose: &'static str,
-    inverse_transpose: &'static str,
-    gradient_dual: &'static str,
-    gradient_difference: &'static str,
-}
-
-const EXP: Formulas = Formulas {
-    transpose: "<(dexp_xi)* mu, eta> = <mu, dexp_xi eta>",
-    inverse_transpose: "<(dexp^-1_xi)* mu, eta> = <mu, dexp^-1_xi eta>",
-    gradient_dual: "dexp_inv_gradient = d/dxi <mu, dexp^-1_xi eta>, by duals",
-    gradient_difference: "dexp_inv_gradient = d/dxi <mu, dexp^-1_xi eta>, by differences",
-};
-
-const CAYLEY: Formulas = Formulas {
-    transpose: "<(dcay_xi)* mu, eta> = <mu, dcay_xi eta>",
-    inverse_transpose: "<(dcay^-1_xi)* mu, eta> = <mu, dcay^-1_xi eta>",
-    gradient_dual: "dcay_inv_gradient = d/dxi <mu, dcay^-1_xi eta>, by duals",
-    gradient_difference: "dcay_inv_gradient = d/dxi <mu, dcay^-1_xi eta>, by differences",
-};
-
 fn transposes<G: LieGroup, R: Retraction>(
     c: &mut Checker,
     examples: &Examples<G>,
     xi: &G::Algebra,
-    formulas: Formulas,
 ) -> Outcome {
     let basis = &examples.basis;
-    let images: Vec<_> = basis.iter().map(|e| R::d_left::<G>(xi, e)).collect();
-    let inverse_images: Vec<_> = basis.iter().map(|e| R::d_left_inv::<G>(xi, e)).collect();
+    let images: Vec<_> = basis.iter().map(|e| G::d_left::<R>(xi, e)).collect();
+    let inverse_images: Vec<_> = basis.iter().map(|e| G::d_left_inv::<R>(xi, e)).collect();
     for mu in &examples.momenta {
-        let case = || format!("xi = {xi:?}, mu = {mu:?}");
+        let case = || format!("{}, xi = {xi:?}, mu = {mu:?}", R::NAME);
         let scale = vector_size(xi).powi(3) * vector_size(mu);
-        let (nu, pairings) = (R::d_left_dual::<G>(xi, mu), by_pairing::<G>(mu, &images));
-        c.vectors(formulas.transpose, &case, (&nu, &pairings), scale)?;
+        let (nu, pairings) = (G::d_left_dual::<R>(xi, mu), by_pairing::<G>(mu, &images));
+        c.vectors(
+            "<(dtau_xi)* mu, eta> = <mu, dtau_xi eta>",
+            &case,
+            (&nu, &pairings),
+            scale,
+        )?;
         let (nu, pairings) = (
-            R::d_left_inv_dual::<G>(xi, mu),
+            G::d_left_inv_dual::<R>(xi, mu),
             by_pairing::<G>(mu, &inverse_images),
         );
-        c.vectors(formulas.inverse_transpose, &case, (&nu, &pairings), scale)?;
+        let formula = "<(dtau^-1_xi)* mu, eta> = <mu, dtau^-1_xi eta>";
+        c.vectors(formula, &case, (&nu, &pairings), scale)?;
     }
     Ok(())
 }
@@ -74,7 +57,6 @@ fn gradients<G, R>(
     examples: &Examples<G>,
     xi: &G::Algebra,
     eta: &G::Algebra,
-    formulas: Formulas,
 ) -> Outcome
 where
     G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
@@ -85,14 +67,16 @@ where
     let along = |e| derivative_by_differences::<G, R>(xi, eta, e);
     let by_differences: Vec<_> = examples.basis.iter().map(along).collect();
     for mu in &examples.momenta {
-        let case = || format!("xi = {xi:?}, mu = {mu:?}, eta = {eta:?}");
+        let case = || format!("{}, xi = {xi:?}, mu = {mu:?}, eta = {eta:?}", R::NAME);
         let scale = vector_size(xi).powi(3) * vector_size(eta) * vector_size(mu);
-        let gradient = R::d_left_inv_gradient::<G>(xi, mu, eta);
+        let gradient = G::d_left_inv_gradient::<R>(xi, mu, eta);
         let sides = (&gradient, &by_pairing::<G>(mu, &by_duals));
-        c.vectors(formulas.gradient_dual, &case, sides, scale)?;
+        let formula = "d_left_inv_gradient = d/dxi <mu, dtau^-1_xi eta>, by duals";
+        c.vectors(formula, &case, sides, scale)?;
         let sides = (&gradient, &by_pairing::<G>(mu, &by_differences));
         let tolerance = difference_tolerance::<G::Scalar>(scale);
-        c.within(formulas.gradient_difference, &case, sides, tolerance)?;
+        let formula = "d_left_inv_gradient = d/dxi <mu, dtau^-1_xi eta>, by differences";
+        c.within(formula, &case, sides, tolerance)?;
     }
     Ok(())
 }
@@ -109,7 +93,7 @@ where
     R: Retraction,
 {
     let (line, eta) = (line::<G>(shape, xi, e), constant::<G>(shape, eta));
-    partial::<G>(xi, &R::d_left_inv::<Over<G, JetOf<G>>>(&line, &eta))
+    partial::<G>(xi, &Over::<G, JetOf<G>>::d_left_inv::<R>(&line, &eta))
 }
 
 /// The same by a central difference.
@@ -119,6 +103,6 @@ fn derivative_by_differences<G: LieGroup, R: Retraction>(
     e: &G::Algebra,
 ) -> G::Algebra {
     let s = step::<G>();
-    let at = |s: f64| R::d_left_inv::<G>(&sum(xi, &scaled(e, s)), eta);
+    let at = |s: f64| G::d_left_inv::<R>(&sum(xi, &scaled(e, s)), eta);
     central(&at(s), &at(-s), s)
 }

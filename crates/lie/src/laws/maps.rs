@@ -5,7 +5,7 @@ use super::checker::{Checker, log_of, size, tolerance};
 use super::examples::Examples;
 use super::group::other_than;
 use super::linear::{at_most, length, scaled, vector_size, zero};
-use crate::{LieGroup, Scalar};
+use crate::{Cayley, Exp, LieGroup, Retraction, Scalar};
 
 pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
     for g in examples.elements {
@@ -15,7 +15,8 @@ pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Out
         one_parameter(c, examples.shape(), xi)?;
         near_the_identity::<G>(c, xi)?;
         logarithm_is_shortest::<G>(c, xi)?;
-        in_place(c, &G::exp(xi), &G::cayley(xi), xi)?;
+        in_place::<G, Exp>(c, &G::exp(xi), xi)?;
+        in_place::<G, Cayley>(c, &G::cayley(xi), xi)?;
     }
     // Only now: it compares logarithms, which are known to be right by the laws before.
     examples.elements.iter().try_for_each(|g| square_root(c, g))
@@ -92,11 +93,10 @@ fn logarithm_is_shortest<G: LieGroup>(c: &mut Checker, xi: &G::Algebra) -> Outco
     c.numbers("|log(exp xi)| <= |xi|", &case, sides, tolerance)
 }
 
-fn in_place<G: LieGroup>(c: &mut Checker, exp: &G, cay: &G, xi: &G::Algebra) -> Outcome {
-    let (case, scale) = (|| format!("xi = {xi:?}"), vector_size(xi).powi(2));
-    let (mut by_exp, mut by_cayley) = (other_than(exp), other_than(cay));
-    G::exp_into(xi, &mut by_exp);
-    G::cayley_into(xi, &mut by_cayley);
-    c.elements("exp_into = exp", &case, (&by_exp, exp), scale)?;
-    c.elements("cayley_into = cayley", &case, (&by_cayley, cay), scale)
+fn in_place<G: LieGroup, R: Retraction>(c: &mut Checker, element: &G, xi: &G::Algebra) -> Outcome {
+    let case = || format!("{}, xi = {xi:?}", R::NAME);
+    let mut out = other_than(element);
+    G::retract_into::<R>(xi, &mut out);
+    let scale = vector_size(xi).powi(2);
+    c.elements("retract_into = tau", &case, (&out, element), scale)
 }

@@ -1,7 +1,7 @@
 //! SIMD lanes: every register of this processor computes what a double does, item by item.
 
 use lie::lanes::{self, InstructionSet, Job};
-use lie::{Batch, DualNumber, Jet, LieGroup, SE3, SO3, Scalar, Tangent, Vec3};
+use lie::{Batch, Cayley, DualNumber, Jet, LieGroup, SE3, SO3, Scalar, Tangent, Vec3};
 
 /// Both signs, ties, what rounds, and what is not finite; a prime number of them, so that any two meet in every item.
 const NUMBERS: [f64; 13] = [
@@ -249,8 +249,8 @@ fn motions<S: Scalar>(x: [S; 12]) -> Vec<S> {
     let (xi, eta) = (Tangent([a, b, c, d, e, f]), Tangent(rest));
     let g = SE3::exp(&xi).compose(&SE3::cayley(&eta));
     let turn = SO3::exp(&xi.split().0.into()).compose(&SO3::cayley(&eta.split().0.into()));
-    let slow = SE3::<S>::dcay_inv(&xi, &eta);
-    let slower = SO3::<S>::dcay_inv(&Tangent([a, b, c]), &Tangent([d, e, f]));
+    let slow = SE3::<S>::d_left_inv::<Cayley>(&xi, &eta);
+    let slower = SO3::<S>::d_left_inv::<Cayley>(&Tangent([a, b, c]), &Tangent([d, e, f]));
     let point = g.act(Vec3([d, e, f]));
     let rows = [turn.matrix(), g.rotation.matrix()].map(|m| m.0.concat());
     [

@@ -50,7 +50,7 @@ fn the_columns_are_the_frames_to_the_last_digit() {
         let bodies = scene
             .bodies
             .iter()
-            .zip(frame.attitudes().zip(frame.rates()));
+            .zip(frame.attitudes().iter().zip(frame.rates()));
         for ((body, (attitude, rate)), last) in bodies.zip(&mut last) {
             let of = |column: &str| at(&format!("{}.{column}", body.name));
             assert_eq!(["wx", "wy", "wz"].map(of), rate.0);
@@ -64,7 +64,7 @@ fn the_columns_are_the_frames_to_the_last_digit() {
     assert!(
         frames
             .iter()
-            .any(|frame| frame.attitudes().any(|r| r.to_quaternion()[0] < 0.1))
+            .any(|frame| frame.attitudes().iter().any(|r| r.to_quaternion()[0] < 0.1))
     );
 }
 

@@ -2,7 +2,7 @@
 
 use articulated_fluid::Scene;
 use lie::{LieGroup, SO3, Tangent, Vec3};
-use sim::{Method, attitudes};
+use sim::Method;
 
 use super::change::{self, Units};
 
@@ -104,7 +104,7 @@ pub fn run(scene: &Scene, method: Method, h: f64, steps: usize) -> Vec<Vec<SO3>>
     names.sort_by_key(|(_, name)| *name);
     let mut step = || {
         integrator.step(&mut state, h).ok()?;
-        let all: Vec<SO3> = attitudes(&state.g).copied().collect();
+        let all: Vec<SO3> = state.g.0.to_vec();
         Some(names.iter().map(|(i, _)| all[*i]).collect())
     };
     (0..steps).map_while(|_| step()).collect()

@@ -61,8 +61,7 @@ pub use tolerance::Tolerance;
 pub use trajectory::Trajectory;
 
 use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::{Integrator, State, StepError};
-use lie::{RealGroup, VectorSpace};
+use dvi::{Integrator, State};
 
 /// A competitor under one name.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,34 +168,4 @@ impl Baseline {
             _ => None,
         }
     }
-}
-
-/// What every step of a fixed size refuses, before its step number `step`.
-fn check_step<G: RealGroup>(
-    state: &State<G>,
-    h: f64,
-    step: u64,
-    fits: bool,
-) -> Result<(), StepError> {
-    let t = state.t;
-    if h == 0.0 || !h.is_finite() {
-        return Err(StepError::InvalidStep { step, t, h });
-    }
-    fits.then_some(()).ok_or(StepError::Misfit { step, t })
-}
-
-/// Refuses a momentum of another shape than this one.
-fn check_momentum<G: RealGroup>(
-    state: &State<G>,
-    shape: &G::Dual,
-    step: u64,
-) -> Result<(), StepError> {
-    let (t, expected, found) = (state.t, shape.dim(), state.mu.dim());
-    let fits = state.mu.same_shape(shape);
-    fits.then_some(()).ok_or(StepError::Shape {
-        step,
-        t,
-        expected,
-        found,
-    })
 }

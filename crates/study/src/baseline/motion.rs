@@ -1,7 +1,7 @@
 //! The bodies' motion by an adaptive method.
 
 use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::{ContinuousSystem, State};
+use dvi::{State, System};
 use lie::lanes::{self, Job};
 use lie::{Batch, LieGroup, VectorSpace};
 

@@ -1,13 +1,15 @@
 //! Runge–Kutta methods on the group itself.
 
-use dvi::{ContinuousSystem, Integrator, State, StepError, StepReport};
-use lie::{LieGroup, RealGroup, VectorSpace};
+use dvi::{
+    Cause, Context, ContinuousSystem, Integrator, State, StepError, StepReport, System,
+    check_momentum, check_step,
+};
+use lie::{Exp, LieGroup, RealGroup, VectorSpace};
 
 use super::tableau::{Row, Tableau, sum};
-use super::{check_momentum, check_step};
 
-type Algebra<S> = <<S as ContinuousSystem>::Group as LieGroup>::Algebra;
-type Dual<S> = <<S as ContinuousSystem>::Group as LieGroup>::Dual;
+type Algebra<S> = <<S as System>::Group as LieGroup>::Algebra;
+type Dual<S> = <<S as System>::Group as LieGroup>::Dual;
 
 /// The method whose stages are carried to the group.
 const CLASSICAL: Tableau = Tableau::CLASSICAL;
@@ -134,19 +136,20 @@ impl<S: ContinuousSystem> Integrator for GroupRungeKutta<S> {
     }
 
     fn step(&mut self, state: &mut State<S::Group>, h: f64) -> Result<StepReport, StepError> {
-        check_step(state, h, self.steps, self.system.fits(&state.g))?;
+        let at = (self.steps, state.t, h);
+        let refused = |cause: Cause| cause.at(at);
+        check_step(&self.system, state, h).map_err(refused)?;
         let storage = match self.storage.take() {
             Some(storage) if storage.end.g.same_shape(&state.g) => storage,
-            _ => Storage::new(&self.system, state),
+            _ => Storage::new(state),
         };
         let storage = self.storage.insert(storage);
-        check_momentum(state, &storage.forces[0], self.steps)?;
+        check_momentum(&state.mu, &storage.forces[0]).map_err(refused)?;
         storage.step(&self.system, self.scheme, state, h);
         let end = &mut storage.end;
         let finite = end.g.is_finite() && end.mu.max_magnitude().is_finite();
         if !(finite && self.system.is_defined(state.t + h, &end.g)) {
-            let (step, t) = (self.steps, state.t);
-            return Err(StepError::NotFinite { step, t, h });
+            return Err(refused(Cause::NotFinite));
         }
         end.t = state.t + h;
         core::mem::swap(state, end);
@@ -156,10 +159,10 @@ impl<S: ContinuousSystem> Integrator for GroupRungeKutta<S> {
 }
 
 impl<S: ContinuousSystem> Storage<S> {
-    fn new(system: &S, state: &State<S::Group>) -> Self {
+    fn new(state: &State<S::Group>) -> Self {
         let zero = || state.g.zero_algebra();
         Self {
-            workspace: system.workspace::<f64>(&state.g),
+            workspace: Default::default(),
             c: zero(),
             exp: state.g.clone(),
             stages: core::array::from_fn(|_| state.g.clone()),
@@ -186,7 +189,9 @@ impl<S: ContinuousSystem> Storage<S> {
             before[base].compose_into(&self.exp, &mut stage[0]);
             self.evaluate(system, from, h, i);
             match scheme {
-                Scheme::MuntheKaas => self.rates[i] = S::Group::dexp_inv(&self.c, &self.xi),
+                Scheme::MuntheKaas => {
+                    self.rates[i] = S::Group::d_left_inv::<Exp>(&self.c, &self.xi)
+                }
                 _ => self.rates[i].copy_from(&self.xi),
             }
         }
@@ -205,7 +210,7 @@ impl<S: ContinuousSystem> Storage<S> {
         for (j, a) in row {
             self.c.add_scaled(a * h, &self.rates[*j]);
         }
-        S::Group::exp_into(&self.c, &mut self.exp);
+        S::Group::retract_into::<Exp>(&self.c, &mut self.exp);
     }
 
     /// Leaves the momentum by a row of the tableau in `end`.
@@ -222,7 +227,8 @@ impl<S: ContinuousSystem> Storage<S> {
         self.momentum(from, h, row);
         let (t, g, mu) = (from.t + sum(row) * h, &self.stages[i], &self.end.mu);
         let (xi, force) = (&mut self.xi, &mut self.forces[i]);
-        system.velocity_and_force::<f64>(t, g, mu, &mut self.workspace, xi, force);
+        let at = Context::new(t, system.parameters());
+        system.velocity_and_force::<f64>(at, g, mu, &mut self.workspace, xi, force);
         force.add_scaled(1.0, &S::Group::coadjoint_bracket(xi, mu));
     }
 }

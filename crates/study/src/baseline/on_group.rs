@@ -19,8 +19,8 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
-use dvi::{ContinuousSystem, State};
-use lie::{Exp, LieGroup, Retraction, VectorSpace};
+use dvi::{Context, ContinuousSystem, State};
+use lie::{Exp, LieGroup, VectorSpace};
 
 use super::{BaselineError, Pair, RightHandSide, Tolerance, Trajectory};
 
@@ -120,7 +120,7 @@ impl<'a, S: ContinuousSystem> Chart<'a, S> {
     fn new(system: &'a S, start: &State<S::Group>) -> Self {
         Self {
             system,
-            workspace: system.workspace::<f64>(&start.g),
+            workspace: Default::default(),
             c: start.g.zero_algebra(),
             xi: start.g.zero_algebra(),
             mu: start.mu.clone(),
@@ -168,12 +168,16 @@ impl<'a, S: ContinuousSystem> Chart<'a, S> {
             return dy.fill(f64::NAN);
         }
         let g = self.state.g.compose(&S::Group::exp(&self.c));
+        let (at, work) = (
+            Context::new(t, self.system.parameters()),
+            &mut self.workspace,
+        );
         let (xi, tau) = (&mut self.xi, &mut self.tau);
         self.system
-            .velocity_and_force::<f64>(t, &g, &self.mu, &mut self.workspace, xi, tau);
+            .velocity_and_force::<f64>(at, &g, &self.mu, work, xi, tau);
         tau.add_scaled(1.0, &S::Group::coadjoint_bracket(xi, &self.mu));
         let (dc, dmu) = dy.split_at_mut(self.c.dim());
-        Exp::d_left_inv::<S::Group>(&self.c, xi).write(dc);
+        S::Group::d_left_inv::<Exp>(&self.c, xi).write(dc);
         tau.write(dmu);
     }
 

@@ -1,9 +1,9 @@
 //! The continuous model as explicit methods on vectors see it: raw matrix entries, which nothing keeps orthogonal.
 //!
-//! Layout: $R_0$ row by row, $x$, $R_1, \dots, R_n$, then $p_0, p_x, p_1, \dots, p_n$.
+//! Layout: $R_0, \dots, R_n$ row by row, $x$, then $p_0, \dots, p_n, p_x$.
 
 use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::{ContinuousSystem, State};
+use dvi::{Context, ContinuousSystem, State};
 use lie::{AlgebraOver, Batch, Cotangent, DualOver, Mat3, RealGroup, SO3, Tangent, Vec3};
 use lie::{LieGroup, VectorSpace};
 
@@ -15,21 +15,21 @@ pub(super) fn pack(state: &State<Configuration>) -> Vec<f64> {
 }
 
 /// A vector for states of the shape of this one.
-pub(super) fn zero((_, _, r): &Configuration) -> Vec<f64> {
-    vec![0.0; 18 + 12 * r.len()]
+pub(super) fn zero((r, x): &Configuration) -> Vec<f64> {
+    vec![0.0; 12 * r.len() + 6 * x.len()]
 }
 
 /// [`pack`] into a vector of fitting length.
-pub(super) fn write(state: &State<Configuration>, y: &mut [f64]) {
-    let (r0, rest) = y.split_at_mut(9);
-    let (x, rest) = rest.split_at_mut(3);
-    let (r, mu) = rest.split_at_mut(9 * state.g.2.len());
-    r0.copy_from_slice(state.g.0.matrix().0.as_flattened());
-    x.copy_from_slice(&state.g.1.0);
-    for (entries, r) in r.chunks_exact_mut(9).zip(state.g.2.iter()) {
+pub(super) fn write(State { g: (r, x), mu, .. }: &State<Configuration>, y: &mut [f64]) {
+    let (of_r, rest) = y.split_at_mut(9 * r.len());
+    let (of_x, of_mu) = rest.split_at_mut(3 * x.len());
+    for (entries, r) in of_r.chunks_exact_mut(9).zip(r.iter()) {
         entries.copy_from_slice(r.matrix().0.as_flattened());
     }
-    state.mu.write(mu);
+    for (entries, x) in of_x.chunks_exact_mut(3).zip(x.iter()) {
+        entries.copy_from_slice(&x.0);
+    }
+    mu.write(of_mu);
 }
 
 /// The inverse of [`pack`] into a configuration and momentum of fitting size, with the matrices as they are; the same state in all
@@ -37,24 +37,21 @@ pub(super) fn write(state: &State<Configuration>, y: &mut [f64]) {
 #[inline(always)]
 pub(super) fn read<S: Batch<Item = f64>>(
     y: &[f64],
-    (r0, x, r): &mut Configuration<S>,
-    (p0, px, p): &mut DualOver<Configuration, S>,
+    (r, x): &mut Configuration<S>,
+    (p, px): &mut DualOver<Configuration, S>,
 ) {
     let (triples, _) = y.as_chunks();
-    let [a, b, c, of_x, rest @ ..] = triples else {
-        return;
-    };
-    let (of_r, [of_p0, of_px, of_p @ ..]) = rest.split_at(3 * r.len()) else {
-        return;
-    };
-    *r0 = rotation([a, b, c]);
-    x.0 = vector(of_x);
+    let (of_r, rest) = triples.split_at(3 * r.len());
+    let (of_x, rest) = rest.split_at(x.len());
+    let (of_p, of_px) = rest.split_at(p.len());
     for (r, [a, b, c]) in r.iter_mut().zip(of_r.as_chunks().0) {
         *r = rotation([a, b, c]);
     }
-    *p0 = Cotangent(vector(of_p0));
-    *px = Cotangent(vector(of_px));
-    for (p, entries) in p.iter_mut().zip(of_p) {
+    for (x, entries) in x.iter_mut().zip(of_x) {
+        x.0 = vector(entries);
+    }
+    let momenta = p.iter_mut().zip(of_p).chain(px.iter_mut().zip(of_px));
+    for (p, entries) in momenta {
         *p = Cotangent(vector(entries));
     }
 }
@@ -89,14 +86,14 @@ impl<S: Batch<Item = f64>> Rates<S> {
             mu: g.zero_dual(),
             xi: g.zero_algebra(),
             tau: g.zero_dual(),
-            workspace: ContinuousSystem::workspace::<S>(model, &g),
+            workspace: Default::default(),
             g,
         }
     }
 
-    /// A configuration and a momentum of the shape of the states.
-    pub(super) fn shape(&self) -> (&Configuration<S>, &DualOver<Configuration, S>) {
-        (&self.g, &self.mu)
+    /// A momentum of the shape of the states.
+    pub(super) fn momentum(&self) -> &DualOver<Configuration, S> {
+        &self.mu
     }
 
     /// The rates of `y`, both as [`pack`] lays them out.
@@ -107,14 +104,8 @@ impl<S: Batch<Item = f64>> Rates<S> {
             || {
                 let (g, mu, xi, tau) = (&mut self.g, &mut self.mu, &mut self.xi, &mut self.tau);
                 read(y, g, mu);
-                self.model.velocity_and_force::<S>(
-                    S::splat(0.0),
-                    g,
-                    mu,
-                    &mut self.workspace,
-                    xi,
-                    tau,
-                );
+                let (at, work) = (Context::new(S::splat(0.0), &[]), &mut self.workspace);
+                self.model.velocity_and_force::<S>(at, g, mu, work, xi, tau);
                 self.write(dy);
             },
         );
@@ -122,24 +113,23 @@ impl<S: Batch<Item = f64>> Rates<S> {
 
     #[inline(always)]
     fn write(&self, dy: &mut [f64]) {
-        let ((r0, _, r), (p0, _, p)) = (&self.g, &self.mu);
-        let ((omega0, v, omega), (tau0, force, tau)) = (&self.xi, &self.tau);
+        let ((r, x), (p, _)) = (&self.g, &self.mu);
+        let ((omega, v), (tau, force)) = (&self.xi, &self.tau);
         let (triples, _) = dy.as_chunks_mut();
-        let [a, b, c, d_x, rest @ ..] = triples else {
-            return;
-        };
-        let (d_r, [d_p0, d_px, d_p @ ..]) = rest.split_at_mut(3 * r.len()) else {
-            return;
-        };
-        rotated(r0, omega0, [a, b, c]);
-        store(v.vec3(), d_x);
+        let (d_r, rest) = triples.split_at_mut(3 * r.len());
+        let (d_x, rest) = rest.split_at_mut(x.len());
+        let (d_p, d_px) = rest.split_at_mut(p.len());
         for ((r, omega), [a, b, c]) in r.iter().zip(omega.iter()).zip(d_r.as_chunks_mut().0) {
             rotated(r, omega, [a, b, c]);
         }
-        turned(tau0, p0, omega0, d_p0);
-        store(force.vec3(), d_px);
+        for (v, d_x) in v.iter().zip(d_x) {
+            store(v.vec3(), d_x);
+        }
         for (((tau, p), omega), d_p) in tau.iter().zip(p.iter()).zip(omega.iter()).zip(d_p) {
             turned(tau, p, omega, d_p);
+        }
+        for (force, d_px) in force.iter().zip(d_px) {
+            store(force.vec3(), d_px);
         }
     }
 }

@@ -1,11 +1,10 @@
 //! Methods of a fixed step on raw matrix entries.
 
 use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::{ContinuousSystem, Integrator, State, StepError, StepReport};
-use lie::LieGroup;
+use dvi::{Cause, Integrator, State, StepError, StepReport, check_momentum, check_step};
 
 use super::stages::{combine, evaluate, is_finite};
-use super::{Tableau, check_momentum, check_step, raw};
+use super::{Tableau, raw};
 
 /// An explicit Runge–Kutta method on the entries of the rotation matrices, which nothing keeps orthogonal.
 ///
@@ -72,10 +71,10 @@ impl Integrator for RungeKutta {
     }
 
     fn step(&mut self, state: &mut State<Configuration>, h: f64) -> Result<StepReport, StepError> {
-        let (g, mu) = self.rates.shape();
-        let fits = self.model.fits(&state.g) && state.g.same_shape(g);
-        check_step(state, h, self.steps, fits)?;
-        check_momentum(state, mu, self.steps)?;
+        let at = (self.steps, state.t, h);
+        let refused = |cause: Cause| cause.at(at);
+        check_step(&self.model, state, h).map_err(refused)?;
+        check_momentum(&state.mu, self.rates.momentum()).map_err(refused)?;
         let Self {
             tableau,
             rates,
@@ -90,8 +89,7 @@ impl Integrator for RungeKutta {
         evaluate::<f64>(tableau.rows, &mut rhs, (state.t, y), h, next, k);
         combine::<f64>(next, y, h, tableau.weights, k);
         if !is_finite::<f64>(next) {
-            let (step, t) = (self.steps, state.t);
-            return Err(StepError::NotFinite { step, t, h });
+            return Err(refused(Cause::NotFinite));
         }
         raw::read(next, &mut state.g, &mut state.mu);
         state.t += h;

@@ -7,7 +7,7 @@ use dvi::{Pilot, State};
 
 use super::{Contender, Cost, Failure, Problem, Setting};
 use crate::baseline::{Motion, Tolerance};
-use crate::methods::BoxedIntegrator;
+use sim::BoxedIntegrator;
 
 impl Contender {
     /// The integrator of a contender that takes steps of one size; `None` of any other.

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::{State, StepError};
+use dvi::{Cause, State, StepError};
 use serde::{Serialize, Serializer};
 use sim::{Sample, Watch};
 
@@ -270,7 +270,7 @@ impl Judge {
     pub(super) fn judge(&self, end: End) -> Outcome {
         let (class, failure, refused_at) = match end {
             End::Reached | End::OffBand => (self.class_at_end(), None, None),
-            End::Stopped(error @ StepError::NotFinite { .. }, _) => {
+            End::Stopped(error, _) if error.cause == Cause::NotFinite => {
                 (Class::NonFinite, Some(error.into()), None)
             }
             End::Stopped(error, state) => (Class::Refused, Some(error.into()), Some(*state)),

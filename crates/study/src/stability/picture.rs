@@ -4,7 +4,6 @@ use sim::number::three_digits;
 
 use super::outcome::{ENERGY_BAND, ENERGY_DRIFT, GROUP, MOMENTUM, WRONG};
 use super::{Class, Map};
-use crate::work_precision::three_digits;
 use figure::{Colour, Kind, Mosaic, Tiles};
 
 const COLUMNS: usize = 5;

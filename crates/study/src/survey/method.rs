@@ -16,14 +16,13 @@ impl<G: RealGroup> Method<G> {
     }
 }
 
-/// The variational integrator by the rule `Q` through the retraction `R`.
-pub fn variational<L, Q, R>(system: L) -> Method<L::Group>
+/// The variational integrator by a rule, through the retraction `R`.
+pub fn variational<L, R>(system: L, rule: Quadrature) -> Method<L::Group>
 where
     L: Lagrangian + 'static,
-    Q: Quadrature,
     R: Retraction + 'static,
 {
-    let discrete: Discretised<L, Q, R> = system.discretise::<Q>().with_retraction::<R>();
+    let discrete: Discretised<L, R> = system.discretise(rule).with_retraction();
     Method::new(Variational::new(discrete))
 }
 

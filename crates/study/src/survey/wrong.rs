@@ -50,10 +50,11 @@ impl DiscreteLagrangian for ByHand {
 
     fn derivatives<S: Scalar>(
         &self,
-        _: S,
+        _: Context<S>,
         r: &SO3<S>,
         f: &SO3<S>,
         h: S,
+        (): &mut (),
         out: &mut Derivatives<SO3, S>,
     ) {
         let factor = if self.0 == Mistake::FactorOfDf {

@@ -4,7 +4,7 @@ use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
 use lie::SO3;
 use serde::Serialize;
-use sim::{Sample, Watch, attitudes};
+use sim::{Sample, Watch};
 
 use crate::contender::Failure;
 
@@ -77,7 +77,7 @@ pub(super) fn distance(
     a: &Configuration,
     b: &Configuration,
 ) -> Option<(f64, f64)> {
-    let angles = attitudes(a).zip(attitudes(b)).map(|(a, b)| angle(a, b));
+    let angles = a.0.iter().zip(b.0.iter()).map(|(a, b)| angle(a, b));
     let centres = model.centre_positions(a).into_iter();
     let gaps = centres
         .zip(model.centre_positions(b))

@@ -1,7 +1,7 @@
 //! The Runge–Kutta baseline against exact solutions, and what it refuses.
 
 use allocation_counter::measure;
-use dvi::{Integrator, StepError};
+use dvi::{Cause, Integrator};
 use study::baseline::{
     self, BaselineError, Motion, Pair, RungeKutta, Samples, Tableau, Tolerance, Trajectory,
     integrate,
@@ -412,8 +412,8 @@ fn a_refused_step_leaves_the_state() {
         let mut state = problem.start.clone();
         for h in [1e300, f64::NAN, 0.0] {
             let refused = integrator.step(&mut state, h).expect_err("no step");
-            let invalid = matches!(refused, StepError::InvalidStep { .. });
-            let lost = matches!(refused, StepError::NotFinite { .. });
+            let invalid = refused.cause == Cause::InvalidStep;
+            let lost = refused.cause == Cause::NotFinite;
             assert!(if h == 1e300 { lost } else { invalid }, "{refused}");
             assert_eq!(state, problem.start);
         }

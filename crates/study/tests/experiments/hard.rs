@@ -7,7 +7,7 @@ use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use dvi::{State, StepError};
 use lie::{SO3, VectorSpace};
 use sim::method::Family;
-use sim::{Method, Sample, Watch, attitudes};
+use sim::{Method, Sample, Watch};
 use study::baseline::{Tolerance, on_group};
 use study::contender::{Contender, Problem};
 
@@ -115,9 +115,7 @@ fn apart(a: &State<Configuration>, b: &State<Configuration>) -> f64 {
         let sine = (*a.matrix() - *b.matrix()).frobenius() / 8.0_f64.sqrt();
         2.0 * sine.clamp(0.0, 1.0).asin()
     };
-    let angles = attitudes(&a.g)
-        .zip(attitudes(&b.g))
-        .map(|(a, b)| angle(a, b));
+    let angles = a.g.0.iter().zip(b.g.0.iter()).map(|(a, b)| angle(a, b));
     angles.fold(0.0, f64::max)
 }
 
@@ -131,7 +129,7 @@ impl Scales {
     fn new(model: &ArticulatedBody, state: &State<Configuration>, sample: &Sample) -> Self {
         let masses = model.bodies().map(|body| body.mass.frobenius());
         let linear = (2.0 * sample.kinetic * masses.sum::<f64>()).sqrt();
-        let far = sample.linear.norm() * state.g.1.vec3().norm();
+        let far = sample.linear.norm() * state.g.1[0].vec3().norm();
         let angular = state.mu.max_magnitude().max(sample.angular.norm()) + far;
         Self { linear, angular }
     }
@@ -344,7 +342,7 @@ fn two_rotors_past_their_fold_are_seen() {
             let mut integrator = Contender::Structure(method).integrator(&problem).unwrap();
             let mut state = problem.start.clone();
             // Of 3 kg.
-            state.mu.1[0] += 3.0 * velocity;
+            state.mu.1[0][0] += 3.0 * velocity;
             let mut steps = 0;
             for _ in 0..60 {
                 let before = state.clone();

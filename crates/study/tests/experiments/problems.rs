@@ -9,7 +9,7 @@ mod pendulum;
 mod reference;
 mod welded;
 
-use dvi::{ContinuousSystem, Lagrangian, State};
+use dvi::{Context, ContinuousSystem, Lagrangian, State};
 use lie::{LieGroup, RealGroup, VectorSpace};
 use study::baseline::{Tolerance, on_group};
 use study::problems::{Problem, Solution};
@@ -88,8 +88,8 @@ where
     let here = problem.exact.at(t).expect("a state");
     let (mut xi, mut tau) = (here.g.zero_algebra(), here.g.zero_dual());
     let system = (&problem.lagrangian).hamiltonian();
-    let mut workspace = system.workspace::<f64>(&here.g);
-    system.velocity_and_force::<f64>(t, &here.g, &here.mu, &mut workspace, &mut xi, &mut tau);
+    let (at, mut work) = (Context::new(t, &[]), Default::default());
+    system.velocity_and_force::<f64>(at, &here.g, &here.mu, &mut work, &mut xi, &mut tau);
     tau.add_scaled(1.0, &L::Group::coadjoint_bracket(&xi, &here.mu));
     for (offset, weight) in [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)] {
         let there = problem.exact.at(t + offset * h).expect("a state");

@@ -104,7 +104,7 @@ fn map_bound<A>(symmetry: &Translation<A>, run: &LongRun) -> f64 {
 #[test]
 fn free_rigid_body() {
     let body = systems::free_rigid_body().expect("a problem");
-    let midpoint = variational::<_, Midpoint, Cayley>;
+    let midpoint = |system| variational::<_, Cayley>(system, Quadrature::Midpoint);
     prove(&body, "midpoint, Cayley", midpoint, (2.0, [400, 800, 1600]));
     prove(
         &body,
@@ -148,8 +148,8 @@ fn precession_rate(mut method: Method<SO3>, start: &State<SO3>, until: f64, step
 #[test]
 fn lagrange_top() {
     let top = systems::heavy_top().expect("a problem");
-    let left = variational::<_, LeftPoint, Cayley>;
-    let trapezoid = variational::<_, Trapezoid, Exp>;
+    let left = |system| variational::<_, Cayley>(system, Quadrature::LeftPoint);
+    let trapezoid = |system| variational::<_, Exp>(system, Quadrature::Trapezoid);
     prove(&top, "left, Cayley", left, (1.0, [800, 1600, 3200]));
     prove(&top, "trapezoidal, exp", trapezoid, (2.0, [200, 400, 800]));
     prove(
@@ -175,7 +175,7 @@ fn lagrange_top() {
 #[test]
 fn pendulum_in_space() {
     let pendulum = systems::pendulum().expect("a problem");
-    let right = variational::<_, RightPoint, Exp>;
+    let right = |system| variational::<_, Exp>(system, Quadrature::RightPoint);
     prove(&pendulum, "right, exp", right, (1.0, [800, 1600, 3200]));
     prove(
         &pendulum,
@@ -188,7 +188,7 @@ fn pendulum_in_space() {
 #[test]
 fn ellipsoid_in_a_fluid() {
     let flutter = systems::flutter().expect("a problem");
-    let right = variational::<_, RightPoint, Exp>;
+    let right = |system| variational::<_, Exp>(system, Quadrature::RightPoint);
     prove(&flutter, "right, exp", right, (2.0, [200, 400, 800]));
     let screw = systems::screw().expect("a problem");
     let exact = screw.exact.at(10.0 * screw.time).expect("a state");

@@ -28,9 +28,15 @@ struct DragAndDrive;
 
 impl Force for DragAndDrive {
     type Group = Rn<1>;
-    fn force<S: Scalar>(&self, t: S, _: &Rn<1, S>, v: &Tangent<1, S>) -> Cotangent<1, S> {
-        let (_, cos) = t.sin_cos();
-        Cotangent([cos - v[0] * S::from_f64(0.2)])
+    fn force<S: Scalar>(
+        &self,
+        at: Context<S>,
+        _: &Rn<1, S>,
+        v: &Tangent<1, S>,
+        out: &mut Cotangent<1, S>,
+    ) {
+        let (_, cos) = at.t.sin_cos();
+        out[0] = cos - v[0] * S::from_f64(0.2);
     }
 }
 

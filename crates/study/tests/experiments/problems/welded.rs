@@ -83,8 +83,11 @@ const POINTS: [[f64; 3]; 4] = [
     [-0.3, -0.3, 0.3],
 ];
 
-impl Lagrangian for Sprung {
+impl System for Sprung {
     type Group = [SE3; 2];
+}
+
+impl Lagrangian for Sprung {
     fn value<S: Scalar>(
         &self,
         _: Context<S>,
