@@ -42,7 +42,7 @@ fn the_columns_are_the_frames_to_the_last_digit() {
         let at = |name: &str| row[header.iter().position(|column| *column == name).unwrap()];
         let three = |names: [&str; 3]| names.map(at);
         assert_eq!(at("t"), frame.state.t);
-        assert_eq!(three(["x", "y", "z"]), frame.state.g.1.0);
+        assert_eq!(three(["x", "y", "z"]), frame.state.g.1[0].0);
         assert_eq!(at("energy"), frame.sample.energy);
         assert_eq!(three(["px", "py", "pz"]), frame.sample.linear.0);
         assert_eq!(three(["lx", "ly", "lz"]), frame.sample.angular.0);
