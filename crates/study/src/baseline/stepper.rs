@@ -35,7 +35,7 @@ pub(super) struct Stepper<S> {
     pub(super) t: f64,
     pub(super) y: Vec<f64>,
     pub(super) work: Work,
-    /// Where the last step started.
+    /// Where the last step started; where it was refused, the same as `t`.
     pub(super) before: f64,
     pair: &'static Pair,
     /// Whether the error estimate takes the rate at the end of the step.
@@ -109,6 +109,8 @@ impl<S: Batch<Item = f64>> Stepper<S> {
         rhs: &mut impl RightHandSide,
         until: f64,
     ) -> Result<(), BaselineError> {
+        // Where the last step started is overwritten.
+        self.before = self.t;
         loop {
             let steps = self.work.accepted + self.work.rejected;
             if steps >= MAX_STEPS {
@@ -241,7 +243,7 @@ impl<S: Batch<Item = f64>> Stepper<S> {
         let end = self.k.len() - 1;
         core::mem::swap(&mut self.y, &mut self.next);
         self.k.swap(0, end);
-        (self.before, self.t) = (self.t, t);
+        self.t = t;
         self.work.accepted += 1;
     }
 

@@ -99,7 +99,8 @@ impl Problem {
 
     /// The times $k T / n$, $k = 0, \dots, n$, with $T$ the end and $n$ = `samples`.
     pub fn times(&self, samples: u64) -> Vec<f64> {
-        (0..=samples).map(|k| self.time(k, samples)).collect()
+        let n = samples.max(1);
+        (0..=samples).map(|k| self.time(k, n)).collect()
     }
 
     /// The time $k T / n$; of $k = n$ the end itself.

@@ -62,7 +62,8 @@ impl Contender {
         samples: u64,
     ) -> Result<Vec<State<Configuration>>, Failure> {
         let mut run = Run::begin(self, problem, setting)?;
-        (0..=samples).map(|k| run.at(k, samples)).collect()
+        let n = samples.max(1);
+        (0..=samples).map(|k| run.at(k, n)).collect()
     }
 }
 

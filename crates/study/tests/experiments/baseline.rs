@@ -397,6 +397,8 @@ fn what_was_reached_stays_after_a_failure() {
             "{t}: {y}"
         );
         assert_eq!(motion.at(t).expect("a state")[0], y);
+        let past = motion.at(t - 1e-3).expect_err("no state any more");
+        assert!(matches!(past, BaselineError::Time { .. }), "{past}");
         motion.at(1.0).expect_err("no state either");
         assert_eq!(motion.reached().1, [y]);
     }
