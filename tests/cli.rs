@@ -8,8 +8,10 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value;
 use tempfile::TempDir;
 
+#[cfg(feature = "chart")]
 #[path = "cli/chart.rs"]
 mod chart;
+#[cfg(feature = "chart")]
 #[path = "cli/stability.rs"]
 mod stability;
 
