@@ -1,9 +1,9 @@
 //! Names beside a panel, each led to from the end of its line.
 
 use crate::colour::{INK, LEADER};
-use crate::page::{LABEL, TICK};
 use crate::plot::Plot;
-use crate::svg::{Pen, Pixel, Svg, Text};
+use crate::svg::{Pen, Pixel, Svg};
+use crate::text::{LABEL, TICK, Text};
 use crate::{Line, Panel, font};
 
 /// Between the plot and the names: room for the leaders.
@@ -32,11 +32,7 @@ pub(crate) fn draw(svg: &mut Svg, panel: &Panel, plot: &Plot, right: f64) {
     let bottom = plot.area.bottom() + LABEL / 2.0;
     let heights = spread(ends.iter().map(|(_, _, end)| end.1).collect(), bottom);
     let left = plot.area.right() + LEAD;
-    let pen = Pen {
-        colour: LEADER,
-        width: 1.0,
-        dashes: "",
-    };
+    let pen = Pen::new(LEADER, 1.0, "");
     for ((label, line, end), y) in ends.into_iter().zip(heights) {
         svg.stroke(&[end, (left - MARK, y)], pen);
         let colour = line.map_or(INK, |line| line.colour.rgb());

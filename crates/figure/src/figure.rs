@@ -3,12 +3,14 @@
 use std::collections::HashSet;
 
 use crate::axis::Axis;
+use crate::grid::Grid;
 use crate::line::SAMPLE;
-use crate::page::{EDGE, Page, TICK};
+use crate::page::{EDGE, Page};
 use crate::panel::{ABOVE, BELOW};
 use crate::plot::{Plot, TICK_GAP};
 use crate::svg::Area;
-use crate::{FigureError, Line, Panel, Rendered, ends, font, grid};
+use crate::text::TICK;
+use crate::{FigureError, Line, Panel, Rendered, ends, font};
 
 /// Of a panel with all its labels.
 const WIDTH: f64 = 762.0;
@@ -70,42 +72,44 @@ impl Figure {
     ///
     /// [`FigureError`] if the figure has no panel, no column or too many of them, or if its charts are too low or too tall.
     pub fn render(&self) -> Result<Rendered, FigureError> {
-        let columns = grid::columns(self.columns, self.panels.len())?;
+        let grid = Grid::new(self.columns, self.panels.len())?;
         let height = self.plot_height;
         if !(1.0..=Self::TALLEST).contains(&height) {
             return Err(FigureError::PlotHeight { height });
         }
-        let pitch = WIDTH + COLUMN_GAP;
-        let mut page = Page::new(
-            columns as f64 * pitch - COLUMN_GAP + 2.0 * EDGE,
-            &self.title,
-        );
-        let beyond = match self.labels {
+        let pitch = (WIDTH + COLUMN_GAP, ABOVE + height + BELOW + ROW_GAP);
+        let width = grid.columns as f64 * pitch.0 - COLUMN_GAP;
+        let mut page = Page::new(width + 2.0 * EDGE, &self.title);
+        let beyond = self.name_lines(&mut page);
+        let axes: Vec<(Axis, Axis)> = self.panels.iter().map(Panel::axes).collect();
+        let indents = indents(&axes, grid.columns);
+        for (k, (panel, (x, y))) in self.panels.iter().zip(axes).enumerate() {
+            let (left, top) = grid.corner(k, (EDGE, page.y), pitch);
+            let indent = indents[grid.column(k)];
+            let area = Area {
+                left: left + indent,
+                top: top + ABOVE,
+                width: WIDTH - indent - beyond,
+                height,
+            };
+            let plot = Plot { area, x, y };
+            panel.draw(&mut page.svg, &plot, self.labels, [left, left + WIDTH]);
+        }
+        page.y += grid.rows as f64 * pitch.1 - ROW_GAP;
+        page.finish(&self.notes)
+    }
+
+    /// Draws the legend, if there is to be one; returns what the names need on the right of a plot.
+    fn name_lines(&self, page: &mut Page) -> f64 {
+        match self.labels {
             Labels::Legend => {
-                let entries = self.legend().into_iter();
-                let entries = entries.map(|line| (line.label.as_str(), line));
+                let lines = self.legend().into_iter();
+                let entries = lines.map(|line| (line.label.as_str(), line));
                 page.legend(entries, SAMPLE, |svg, line, at| line.draw_sample(svg, at));
                 RIGHT
             }
             Labels::Ends => ends::room(&self.panels).min(WIDTH / 2.0),
-        };
-        let axes: Vec<(Axis, Axis)> = self.panels.iter().map(Panel::axes).collect();
-        let indents = indents(&axes, columns);
-        for (k, (panel, (x, y))) in self.panels.iter().zip(axes).enumerate() {
-            let (row, column) = ((k / columns) as f64, k % columns);
-            let left = EDGE + column as f64 * pitch;
-            let area = Area {
-                left: left + indents[column],
-                top: page.y + row * (ABOVE + height + BELOW + ROW_GAP) + ABOVE,
-                width: WIDTH - indents[column] - beyond,
-                height,
-            };
-            let ends = [left, left + WIDTH];
-            panel.draw(&mut page.svg, &Plot { area, x, y }, self.labels, ends);
         }
-        let rows = self.panels.len().div_ceil(columns) as f64;
-        page.y += rows * (ABOVE + height + BELOW + ROW_GAP) - ROW_GAP;
-        page.finish(&self.notes)
     }
 
     /// One line of every label, colour and style, in order of appearance.

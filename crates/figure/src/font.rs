@@ -2,7 +2,9 @@
 
 use std::sync::LazyLock;
 
+use skrifa::charmap::Charmap;
 use skrifa::instance::{LocationRef, Size};
+use skrifa::metrics::GlyphMetrics;
 use skrifa::{FontRef, MetadataProvider};
 
 /// A subset of DejaVu Sans: Latin, Greek and the signs of mathematics.
@@ -20,13 +22,17 @@ const UNKNOWN: f64 = 0.6;
 /// Of sums of widths, in pixels.
 const ROUNDING: f64 = 0.01;
 
-static FONT: LazyLock<Option<FontRef>> = LazyLock::new(|| FontRef::new(SUBSET).ok());
-
-/// Width of a character, in ems.
-fn advance(c: char) -> Option<f64> {
-    let font = FONT.as_ref()?;
+/// Its characters, and their widths in ems.
+static FONT: LazyLock<Option<(Charmap, GlyphMetrics)>> = LazyLock::new(|| {
+    let font = FontRef::new(SUBSET).ok()?;
     let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
-    let width = metrics.advance_width(font.charmap().map(c)?)?;
+    Some((font.charmap(), metrics))
+});
+
+/// Width of a character in ems, if the font has it.
+fn advance(c: char) -> Option<f64> {
+    let (characters, metrics) = FONT.as_ref()?;
+    let width = metrics.advance_width(characters.map(c)?)?;
     Some(f64::from(width))
 }
 

@@ -1,8 +1,9 @@
 //! Names in centred rows, each behind a sample of what it names.
 
 use crate::font;
-use crate::page::{EDGE, LABEL, Page};
-use crate::svg::{Pixel, Svg, Text};
+use crate::page::{EDGE, Page};
+use crate::svg::{Pixel, Svg};
+use crate::text::{LABEL, Text};
 
 const AFTER_SAMPLE: f64 = 9.0;
 const BETWEEN: f64 = 34.0;

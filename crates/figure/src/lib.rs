@@ -55,6 +55,7 @@ mod panel;
 mod plot;
 mod png;
 mod svg;
+mod text;
 mod thin;
 
 pub use axis::Scale;

@@ -84,11 +84,6 @@ impl Line {
             Style::Dotted => DOTS,
             Style::Solid | Style::Broad => "",
         };
-        let pen = Pen {
-            colour: self.colour.rgb(),
-            width,
-            dashes,
-        };
-        svg.stroke(path, pen);
+        svg.stroke(path, Pen::new(self.colour.rgb(), width, dashes));
     }
 }

@@ -1,9 +1,11 @@
 //! Grids of small maps, each of coloured tiles with a sign.
 
 use crate::colour::{FRAME, INK, PAPER, Rgb};
-use crate::page::{EDGE, LABEL, PANEL_TITLE, Page, TICK};
-use crate::svg::{Area, Svg, Text};
-use crate::{Colour, FigureError, Rendered, font, grid};
+use crate::grid::Grid;
+use crate::page::{EDGE, Page};
+use crate::svg::{Area, Svg};
+use crate::text::{LABEL, PANEL_TITLE, TICK, Text};
+use crate::{Colour, FigureError, Rendered, font};
 
 const WIDTH: f64 = 1600.0;
 /// Above and below a map, and between two.
@@ -72,86 +74,93 @@ impl Mosaic {
     ///
     /// [`FigureError`] if there is no map, no column, or too many of them.
     pub fn render(&self) -> Result<Rendered, FigureError> {
-        let columns = grid::columns(self.columns, self.maps.len())?;
+        let grid = Grid::new(self.columns, self.maps.len())?;
         let mut page = Page::new(WIDTH, &self.title);
-        let entries = self.kinds.iter().map(|kind| (kind.label.as_str(), kind));
-        page.legend(entries, SAMPLE, |svg, kind, (left, y)| {
-            let (top, size) = (y - SAMPLE / 2.0, SAMPLE);
-            kind.draw(
-                svg,
-                &Area {
-                    left,
-                    top,
-                    width: size,
-                    height: size,
-                },
-            );
-        });
-        let left = EDGE + LABEL + BESIDE;
-        let pitch = (WIDTH - EDGE - left + GAP) / columns as f64;
-        let indent = font::widest(self.y.iter().map(String::as_str), TICK) + BESIDE;
-        let indent = indent.min(pitch / 2.0);
+        self.draw_legend(&mut page);
+        let (left, top) = (EDGE + LABEL + BESIDE, page.y);
+        let wide = (WIDTH - EDGE - left + GAP) / grid.columns as f64;
         let height = LOWEST.max(TILE_HEIGHT * self.y.len() as f64);
-        let top = page.y;
+        let pitch = (wide, ABOVE + height + BELOW);
+        let indent = (widest(&self.y) + BESIDE).min(wide / 2.0);
         for (k, map) in self.maps.iter().enumerate() {
-            let (row, column) = ((k / columns) as f64, (k % columns) as f64);
+            let (left, top) = grid.corner(k, (left, top), pitch);
             let area = Area {
-                left: left + column * pitch + indent,
-                top: top + row * (ABOVE + height + BELOW) + ABOVE,
-                width: pitch - GAP - indent,
+                left: left + indent,
+                top: top + ABOVE,
+                width: wide - GAP - indent,
                 height,
             };
-            self.draw(&mut page.svg, map, &area, indent - BESIDE);
+            map.draw(&mut page.svg, self, &area);
+            self.draw_names(&mut page.svg, &area, indent - BESIDE);
         }
-        let rows = self.maps.len().div_ceil(columns) as f64;
-        page.y += rows * (ABOVE + height + BELOW);
-        let middle = (
-            EDGE + LABEL / 2.0 - 4.0,
-            (top + ABOVE + page.y - BELOW) / 2.0,
-        );
-        let label = Text::new(&self.y_label, middle, LABEL).upright();
-        page.svg.text(&label.within(page.y - top));
+        page.y += grid.rows as f64 * pitch.1;
+        let middle = (top + ABOVE + page.y - BELOW) / 2.0;
+        let label = Text::new(&self.y_label, (EDGE + LABEL / 2.0 - 4.0, middle), LABEL);
+        page.svg.text(&label.upright().within(page.y - top));
         let label = Text::new(&self.x_label, (WIDTH / 2.0, page.y + LABEL / 2.0), LABEL);
         page.svg.text(&label.within(page.room()));
         page.y += LABEL;
         page.finish(&self.notes)
     }
 
-    /// Draws a map, with `beside` for the names of its rows.
-    fn draw(&self, svg: &mut Svg, map: &Tiles, area: &Area, beside: f64) {
-        let title = Text::new(
-            &map.title,
-            (area.middle().0, area.top - ABOVE / 2.0),
-            PANEL_TITLE,
-        );
-        svg.text(&title.within(area.width));
-        let (columns, rows) = (self.x.len().max(1), self.y.len().max(1));
-        let (width, height) = (area.width / columns as f64, area.height / rows as f64);
-        let tile = |column: usize, row: usize| Area {
+    fn draw_legend(&self, page: &mut Page) {
+        let entries = self.kinds.iter().map(|kind| (kind.label.as_str(), kind));
+        page.legend(entries, SAMPLE, |svg, kind, (left, y)| {
+            let area = Area {
+                left,
+                top: y - SAMPLE / 2.0,
+                width: SAMPLE,
+                height: SAMPLE,
+            };
+            kind.draw(svg, &area);
+        });
+    }
+
+    /// The tile in a column and a row of a map.
+    fn tile(&self, area: &Area, column: usize, row: usize) -> Area {
+        let width = area.width / self.x.len().max(1) as f64;
+        let height = area.height / self.y.len().max(1) as f64;
+        Area {
             left: area.left + column as f64 * width,
             top: area.bottom() - (row + 1) as f64 * height,
             width,
             height,
-        };
-        for (k, kind) in map.kinds.iter().take(columns * rows).enumerate() {
-            if let Some(kind) = self.kinds.get(*kind) {
-                kind.draw(svg, &tile(k % columns, k / columns));
-            }
-        }
-        for (row, label) in self.y.iter().enumerate() {
-            let at = (area.left - BESIDE, tile(0, row).middle().1);
-            svg.text(&Text::new(label, at, TICK).ending().within(beside));
-        }
-        let widest = font::widest(self.x.iter().map(String::as_str), TICK);
-        let stride = ((widest + BESIDE) / width).ceil() as usize;
-        for (column, label) in self.x.iter().enumerate().step_by(stride.max(1)) {
-            let at = (
-                tile(column, 0).middle().0,
-                area.bottom() + BESIDE + TICK / 2.0,
-            );
-            svg.text(&Text::new(label, at, TICK));
         }
     }
+
+    /// Draws the names of columns and rows around a map; those of rows have `room`.
+    fn draw_names(&self, svg: &mut Svg, area: &Area, room: f64) {
+        for (row, name) in self.y.iter().enumerate() {
+            let (_, y) = self.tile(area, 0, row).middle();
+            let name = Text::new(name, (area.left - BESIDE, y), TICK);
+            svg.text(&name.ending().within(room));
+        }
+        let y = area.bottom() + BESIDE + TICK / 2.0;
+        let stride = (widest(&self.x) + BESIDE) / self.tile(area, 0, 0).width;
+        let stride = (stride.ceil() as usize).max(1);
+        for (column, name) in self.x.iter().enumerate().step_by(stride) {
+            let (x, _) = self.tile(area, column, 0).middle();
+            svg.text(&Text::new(name, (x, y), TICK));
+        }
+    }
+}
+
+impl Tiles {
+    fn draw(&self, svg: &mut Svg, mosaic: &Mosaic, area: &Area) {
+        let above = (area.middle().0, area.top - ABOVE / 2.0);
+        svg.text(&Text::new(&self.title, above, PANEL_TITLE).within(area.width));
+        let (columns, rows) = (mosaic.x.len().max(1), mosaic.y.len().max(1));
+        for (k, kind) in self.kinds.iter().take(columns * rows).enumerate() {
+            if let Some(kind) = mosaic.kinds.get(*kind) {
+                kind.draw(svg, &mosaic.tile(area, k % columns, k / columns));
+            }
+        }
+    }
+}
+
+/// Width of the widest tick label.
+fn widest(names: &[String]) -> f64 {
+    font::widest(names.iter().map(String::as_str), TICK)
 }
 
 impl Kind {
@@ -164,7 +173,7 @@ impl Kind {
     }
 }
 
-/// Of a sign.
+/// The colour of a sign on a tile.
 fn ink_on((r, g, b): Rgb) -> Rgb {
     let lightness = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
     if lightness < DARK { PAPER } else { INK }

@@ -1,15 +1,9 @@
 //! A sheet that is filled from the top: title, then whatever, then notes.
 
 use crate::font::wrap;
-use crate::svg::{Svg, Text};
+use crate::svg::Svg;
+use crate::text::{NOTE, TITLE, Text};
 use crate::{FigureError, Rendered, png};
-
-/// Text sizes (ems).
-const TITLE: f64 = 23.0;
-pub(crate) const PANEL_TITLE: f64 = 18.0;
-pub(crate) const LABEL: f64 = 16.5;
-pub(crate) const TICK: f64 = 15.0;
-const NOTE: f64 = 13.5;
 
 /// Free on all sides.
 pub(crate) const EDGE: f64 = 20.0;

@@ -3,9 +3,9 @@
 use crate::axis::{Axis, Scale, range};
 use crate::colour::FRAME;
 use crate::line::{DASHES, Line};
-use crate::page::{LABEL, PANEL_TITLE, TICK};
 use crate::plot::Plot;
-use crate::svg::{Pen, Svg, Text};
+use crate::svg::{Pen, Svg};
+use crate::text::{LABEL, PANEL_TITLE, TICK, Text};
 use crate::{Labels, ends, font};
 
 /// Above the plot, for the title.
@@ -65,11 +65,7 @@ impl Panel {
     /// Draws the panel, whose left end is `left`, and whose right end is `right`.
     pub(crate) fn draw(&self, svg: &mut Svg, plot: &Plot, labels: Labels, [left, right]: [f64; 2]) {
         plot.draw_rules(svg);
-        let pen = Pen {
-            colour: FRAME,
-            width: 1.0,
-            dashes: DASHES,
-        };
+        let pen = Pen::new(FRAME, 1.0, DASHES);
         for y in self.levels.iter().filter_map(|level| plot.height(level.y)) {
             svg.stroke(&plot.level(y), pen);
         }

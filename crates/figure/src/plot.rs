@@ -2,8 +2,8 @@
 
 use crate::axis::Axis;
 use crate::colour::{FRAME, RULE};
-use crate::page::TICK;
-use crate::svg::{Area, Pixel, Svg, Text};
+use crate::svg::{Area, Pixel, Svg};
+use crate::text::{TICK, Text};
 
 /// Between a tick and its label.
 pub(crate) const TICK_GAP: f64 = 9.0;

@@ -1,9 +1,8 @@
 //! A drawing as SVG text.
 
-use std::borrow::Cow;
-
-use crate::colour::{INK, PAPER, Rgb};
-use crate::font::{self, FAMILY, HALF_CAPITAL};
+use crate::colour::{PAPER, Rgb};
+use crate::font::{FAMILY, HALF_CAPITAL};
+use crate::text::Text;
 
 /// A point of the drawing, in pixels; `y` grows downwards.
 pub(crate) type Pixel = (f64, f64);
@@ -34,70 +33,19 @@ impl Area {
 /// How a path is stroked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pen {
-    pub(crate) colour: Rgb,
-    /// In pixels.
-    pub(crate) width: f64,
-    /// Lengths of dashes and gaps, in pixels; empty for a continuous stroke.
-    pub(crate) dashes: &'static str,
-}
-
-/// A text, centred on its point in ink unless told otherwise.
-pub(crate) struct Text<'a> {
-    text: Cow<'a, str>,
-    /// On the middle line of its capitals.
-    at: Pixel,
-    /// The em, in pixels.
-    size: f64,
-    anchor: &'static str,
     colour: Rgb,
-    upright: bool,
+    /// In pixels.
+    width: f64,
+    /// Lengths of dashes and gaps, in pixels; empty for a continuous stroke.
+    dashes: &'static str,
 }
 
-impl<'a> Text<'a> {
-    pub(crate) fn new(text: &'a str, at: Pixel, size: f64) -> Self {
+impl Pen {
+    pub(crate) fn new(colour: Rgb, width: f64, dashes: &'static str) -> Self {
         Self {
-            text: text.into(),
-            at,
-            size,
-            anchor: "middle",
-            colour: INK,
-            upright: false,
-        }
-    }
-
-    pub(crate) fn starting(self) -> Self {
-        Self {
-            anchor: "start",
-            ..self
-        }
-    }
-
-    pub(crate) fn ending(self) -> Self {
-        Self {
-            anchor: "end",
-            ..self
-        }
-    }
-
-    /// Read from bottom to top.
-    pub(crate) fn upright(self) -> Self {
-        Self {
-            upright: true,
-            ..self
-        }
-    }
-
-    pub(crate) fn coloured(self, colour: Rgb) -> Self {
-        Self { colour, ..self }
-    }
-
-    /// Smaller or cut where it is longer than `room`.
-    pub(crate) fn within(self, room: f64) -> Self {
-        let (text, size) = font::fit(&self.text, self.size, room);
-        Self {
-            text: text.into(),
-            size,
-            ..self
+            colour,
+            width,
+            dashes,
         }
     }
 }
