@@ -84,6 +84,7 @@ pub mod lanes;
 pub mod laws;
 mod matrix;
 mod numeric;
+mod operators;
 mod plane;
 mod power;
 mod product;

@@ -1,7 +1,8 @@
 //! Small matrices of three by three.
 
-use core::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub, SubAssign};
+use core::ops::{Index, IndexMut, Mul};
 
+use crate::operators::linear_operators;
 use crate::{Scalar, Vec3};
 
 /// A 3×3 matrix, row by row.
@@ -34,6 +35,17 @@ impl<S: Scalar> Mat3<S> {
     pub fn diagonal([a, b, c]: [S; 3]) -> Self {
         let o = S::zero();
         Self([[a, o, o], [o, b, o], [o, o, c]])
+    }
+
+    /// The matrix of these rows. Not by `array::map`, which moves large entries, dual numbers, through memory.
+    #[inline(always)]
+    fn of(row: impl Fn(usize) -> Vec3<S>) -> Self {
+        Self([row(0).0, row(1).0, row(2).0])
+    }
+
+    #[inline(always)]
+    fn at(&self, i: usize) -> Vec3<S> {
+        self.row(i)
     }
 
     /// $A^T$.
@@ -104,12 +116,6 @@ impl<S: Scalar> Mat3<S> {
     }
 }
 
-/// The matrix of these rows. Not by `array::map`, which moves large entries, dual numbers, through memory.
-#[inline(always)]
-fn rows<S: Scalar>(row: impl Fn(usize) -> Vec3<S>) -> Mat3<S> {
-    Mat3([row(0).0, row(1).0, row(2).0])
-}
-
 impl Mat3<f64> {
     /// $A x$ with the constant $A$: cheaper over dual numbers than [lifting](Self::lift) it.
     ///
@@ -130,7 +136,7 @@ impl Mat3<f64> {
     /// The same matrix over another scalar, as a constant.
     #[inline(always)]
     pub fn lift<S: Scalar>(self) -> Mat3<S> {
-        rows(|i| Vec3(self.0[i]).lift())
+        Mat3::of(|i| self.row(i).lift())
     }
 }
 
@@ -161,52 +167,8 @@ impl<S: Scalar> Mul for Mat3<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, b: Self) -> Self {
-        rows(|i| b.transpose_mul(self.row(i)))
+        Self::of(|i| b.transpose_mul(self.row(i)))
     }
 }
 
-impl<S: Scalar> Mul<S> for Mat3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, a: S) -> Self {
-        rows(|i| self.row(i) * a)
-    }
-}
-
-impl<S: Scalar> Add for Mat3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, b: Self) -> Self {
-        rows(|i| self.row(i) + b.row(i))
-    }
-}
-
-impl<S: Scalar> Sub for Mat3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, b: Self) -> Self {
-        rows(|i| self.row(i) - b.row(i))
-    }
-}
-
-impl<S: Scalar> Neg for Mat3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        rows(|i| -self.row(i))
-    }
-}
-
-impl<S: Scalar> AddAssign for Mat3<S> {
-    #[inline(always)]
-    fn add_assign(&mut self, b: Self) {
-        *self = *self + b;
-    }
-}
-
-impl<S: Scalar> SubAssign for Mat3<S> {
-    #[inline(always)]
-    fn sub_assign(&mut self, b: Self) {
-        *self = *self - b;
-    }
-}
+linear_operators!(Mat3);

@@ -68,8 +68,8 @@ impl<S: Scalar> SE2<S> {
         scale(S::one() / (S::one() + half * half), half_turned(w, v))
     }
 
-    /// Those of $\mathrm{ad}\_\xi$ and its square, whose minimal polynomial is $\lambda (\lambda^2 + \omega^2)$, in
-    /// $\mathrm d\exp_\xi = 1 - c_2\, \mathrm{ad}\_\xi + c_3\, \mathrm{ad}\_\xi^2$.
+    /// $\mathrm d\exp_\xi = 1 - c_2\, \mathrm{ad}\_\xi + c_3\, \mathrm{ad}\_\xi^2$: the minimal polynomial of
+    /// $\mathrm{ad}\_\xi$ is $\lambda (\lambda^2 + \omega^2)$.
     #[inline(always)]
     fn dexp_coefficients(xi: &Tangent<3, S>) -> [S; 2] {
         let [_, c2, c3, ..] = stumpff(xi[0] * xi[0]);
@@ -83,6 +83,7 @@ impl<S: Scalar> SE2<S> {
         [S::from_f64(0.5), factor]
     }
 
+    /// The polynomial's, and that of $g(\omega^2)$.
     #[inline(always)]
     fn dexp_inv_gradient(
         xi: &Tangent<3, S>,

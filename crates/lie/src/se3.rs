@@ -102,6 +102,7 @@ impl<S: Scalar> SE3<S> {
         numerator / (c(8.0) * c2)
     }
 
+    /// The polynomial's, and those of its coefficients in $|\omega|^2$.
     #[inline(always)]
     fn dexp_inv_gradient(
         xi: &Tangent<6, S>,

@@ -234,8 +234,7 @@ impl<S: Scalar> Displacement<S> {
         let s = self.s;
         let near = s.cross(x) + (s * s.dot(x) - x * self.square) * self.scale;
         let far = self.rotation.rotate(x) - x;
-        let pick = |i: usize| S::select(self.moderate, near[i], far[i]);
-        Vec3([pick(0), pick(1), pick(2)])
+        Vec3::of(|i| S::select(self.moderate, near[i], far[i]))
     }
 
     /// $\mathrm{tr}[(R - I) A]$ for a symmetric constant $A$.

@@ -1,7 +1,8 @@
 //! Small symmetric matrices of three by three.
 
-use core::ops::{Add, AddAssign, Mul, Sub};
+use core::ops::Mul;
 
+use crate::operators::linear_operators;
 use crate::{Mat3, Scalar, Vec3};
 
 /// A symmetric 3×3 matrix by its upper triangle, row by row: $a_{11}, a_{12}, a_{13}, a_{22}, a_{23}, a_{33}$.
@@ -22,6 +23,16 @@ impl<S: Scalar> Sym3<S> {
     #[inline(always)]
     pub fn zero() -> Self {
         Self([S::zero(); 6])
+    }
+
+    #[inline(always)]
+    fn of(entry: impl Fn(usize) -> S) -> Self {
+        Self([entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)])
+    }
+
+    #[inline(always)]
+    fn at(&self, i: usize) -> S {
+        self.0[i]
     }
 
     /// $a I$.
@@ -177,41 +188,4 @@ impl<S: Scalar> Mul<Vec3<S>> for Sym3<S> {
     }
 }
 
-impl<S: Scalar> Add for Sym3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, b: Self) -> Self {
-        let (a, b) = (self.0, b.0);
-        Self([
-            a[0] + b[0],
-            a[1] + b[1],
-            a[2] + b[2],
-            a[3] + b[3],
-            a[4] + b[4],
-            a[5] + b[5],
-        ])
-    }
-}
-
-impl<S: Scalar> Sub for Sym3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, b: Self) -> Self {
-        let (a, b) = (self.0, b.0);
-        Self([
-            a[0] - b[0],
-            a[1] - b[1],
-            a[2] - b[2],
-            a[3] - b[3],
-            a[4] - b[4],
-            a[5] - b[5],
-        ])
-    }
-}
-
-impl<S: Scalar> AddAssign for Sym3<S> {
-    #[inline(always)]
-    fn add_assign(&mut self, b: Self) {
-        *self = *self + b;
-    }
-}
+linear_operators!(Sym3);

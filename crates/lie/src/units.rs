@@ -18,8 +18,8 @@ use core::ops::Range;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Units {
-    /// The end of each block, and its kind.
-    blocks: Vec<(usize, usize)>,
+    /// The coordinates of each block, and its kind.
+    blocks: Vec<(Range<usize>, usize)>,
     /// The kind of angles, once there is one.
     angle: Option<usize>,
     kinds: usize,
@@ -59,21 +59,15 @@ impl Units {
         let last = self.blocks.len();
         for _ in factors {
             for block in first..last {
-                let (begin, end) = (self.begin(block), self.blocks[block].0);
-                self.push(end - begin, self.blocks[block].1);
+                let (coordinates, kind) = &self.blocks[block];
+                self.push(coordinates.len(), *kind);
             }
         }
     }
 
     fn push(&mut self, n: usize, kind: usize) {
-        let begin = self.begin(self.blocks.len());
-        self.blocks.push((begin + n, kind));
-    }
-
-    fn begin(&self, block: usize) -> usize {
-        block
-            .checked_sub(1)
-            .map_or(0, |before| self.blocks[before].0)
+        let begin = self.blocks.last().map_or(0, |(before, _)| before.end);
+        self.blocks.push((begin..begin + n, kind));
     }
 
     /// The number of kinds.
@@ -83,12 +77,7 @@ impl Units {
 
     /// The blocks in order: their coordinates and their kind.
     pub fn blocks(&self) -> impl ExactSizeIterator<Item = (Range<usize>, usize)> + '_ {
-        let mut begin = 0;
-        self.blocks.iter().map(move |(end, kind)| {
-            let block = begin..*end;
-            begin = *end;
-            (block, *kind)
-        })
+        self.blocks.iter().cloned()
     }
 
     /// Neighbouring blocks of one kind as one, in order.

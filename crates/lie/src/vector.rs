@@ -1,7 +1,8 @@
 //! Small vectors of three.
 
-use core::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub, SubAssign};
+use core::ops::{Index, IndexMut};
 
+use crate::operators::linear_operators;
 use crate::{Mat3, Scalar};
 
 /// A vector of three numbers, $x \in \mathbb{R}^3$.
@@ -22,6 +23,16 @@ impl<S: Scalar> Vec3<S> {
     #[inline(always)]
     pub fn zero() -> Self {
         Self([S::zero(); 3])
+    }
+
+    #[inline(always)]
+    pub(crate) fn of(entry: impl Fn(usize) -> S) -> Self {
+        Self([entry(0), entry(1), entry(2)])
+    }
+
+    #[inline(always)]
+    fn at(&self, i: usize) -> S {
+        self.0[i]
     }
 
     /// $x \cdot y$.
@@ -114,48 +125,4 @@ impl<S> IndexMut<usize> for Vec3<S> {
     }
 }
 
-impl<S: Scalar> Add for Vec3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, y: Self) -> Self {
-        Self([self[0] + y[0], self[1] + y[1], self[2] + y[2]])
-    }
-}
-
-impl<S: Scalar> Sub for Vec3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, y: Self) -> Self {
-        Self([self[0] - y[0], self[1] - y[1], self[2] - y[2]])
-    }
-}
-
-impl<S: Scalar> Neg for Vec3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self([-self[0], -self[1], -self[2]])
-    }
-}
-
-impl<S: Scalar> Mul<S> for Vec3<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, a: S) -> Self {
-        Self([self[0] * a, self[1] * a, self[2] * a])
-    }
-}
-
-impl<S: Scalar> AddAssign for Vec3<S> {
-    #[inline(always)]
-    fn add_assign(&mut self, y: Self) {
-        *self = *self + y;
-    }
-}
-
-impl<S: Scalar> SubAssign for Vec3<S> {
-    #[inline(always)]
-    fn sub_assign(&mut self, y: Self) {
-        *self = *self - y;
-    }
-}
+linear_operators!(Vec3);

@@ -1,11 +1,12 @@
 //! Algebra and dual elements: vectors with coordinates, told apart by type.
 
 use core::fmt::Debug;
-use core::ops::{Add, Index, IndexMut, Mul, Neg, Sub};
+use core::ops::{Index, IndexMut};
 
 use num_traits::Zero;
 
 use crate::numeric::larger;
+use crate::operators::linear_operators;
 use crate::{Scalar, Vec3};
 
 /// A finite-dimensional real vector space with fixed coordinates: a Lie algebra or its dual.
@@ -149,6 +150,20 @@ macro_rules! coordinate_vector {
             pub fn zero() -> Self {
                 Self([S::zero(); N])
             }
+
+            #[inline(always)]
+            fn of(entry: impl Fn(usize) -> S) -> Self {
+                let mut x = Self::zero();
+                for i in 0..N {
+                    x.0[i] = entry(i);
+                }
+                x
+            }
+
+            #[inline(always)]
+            fn at(&self, i: usize) -> S {
+                self.0[i]
+            }
         }
 
         impl<S: Scalar> $name<3, S> {
@@ -197,39 +212,7 @@ macro_rules! coordinate_vector {
             }
         }
 
-        impl<const N: usize, S: Scalar> Add for $name<N, S> {
-            type Output = Self;
-            #[inline(always)]
-            fn add(mut self, y: Self) -> Self {
-                self.add_scaled(S::one(), &y);
-                self
-            }
-        }
-
-        impl<const N: usize, S: Scalar> Sub for $name<N, S> {
-            type Output = Self;
-            #[inline(always)]
-            fn sub(mut self, y: Self) -> Self {
-                self.add_scaled(-S::one(), &y);
-                self
-            }
-        }
-
-        impl<const N: usize, S: Scalar> Neg for $name<N, S> {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                Self(self.0.map(|x| -x))
-            }
-        }
-
-        impl<const N: usize, S: Scalar> Mul<S> for $name<N, S> {
-            type Output = Self;
-            #[inline(always)]
-            fn mul(self, a: S) -> Self {
-                Self(self.0.map(|x| x * a))
-            }
-        }
+        linear_operators!($name, N);
     };
 }
 

@@ -1,18 +1,15 @@
 //! What steps in a chart are made of, against the maps they stand for; and compensated products.
 
-use super::Outcome;
 use super::checker::{Checker, size};
 use super::examples::Examples;
 use super::linear::{at_most, generic, scaled, vector_size};
+use super::{Family, Outcome};
 use crate::{Cayley, Exp, LieGroup, Retraction, Scalar, VectorSpace};
 
 /// Products of one small displacement, in a row.
 const PRODUCTS: u32 = 64;
 
-pub(super) fn check<G>(c: &mut Checker, examples: &Examples<G>) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
     for g in examples.elements {
         inverses(c, examples, g)?;
         for xi in &examples.velocities {

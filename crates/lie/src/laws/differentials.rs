@@ -1,15 +1,12 @@
 //! The laws that differentiate, by dual numbers and by central differences.
 
-use super::Outcome;
 use super::checker::{Checker, difference_tolerance, log_of};
 use super::examples::Examples;
 use super::linear::{filled, scaled, sum, vector_size, zero};
-use crate::{Cayley, Exp, Jet, LieGroup, Over, Retraction, Scalar, VectorSpace};
+use super::{Family, Outcome};
+use crate::{AlgebraOver, Cayley, Exp, Jet, LieGroup, Over, Retraction, Scalar, VectorSpace};
 
-pub(super) fn check<G>(c: &mut Checker, examples: &Examples<G>) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
     let (shape, velocities) = (examples.shape(), &examples.velocities);
     for eta in velocities {
         identity_at_zero::<G, Exp>(c, eta)?;
@@ -31,15 +28,12 @@ fn identity_at_zero<G: LieGroup, R: Retraction>(c: &mut Checker, eta: &G::Algebr
     c.vectors("dtau_0 eta = eta", &case, sides, vector_size(eta))
 }
 
-fn bracket_is_the_derivative_of_adjoint<G>(
+fn bracket_is_the_derivative_of_adjoint<G: Family>(
     c: &mut Checker,
     shape: &G,
     xi: &G::Algebra,
     eta: &G::Algebra,
-) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+) -> Outcome {
     let case = || format!("xi = {xi:?}, eta = {eta:?}");
     let (bracket, scale) = (G::bracket(xi, eta), vector_size(xi) * vector_size(eta));
     let line = line::<G>(shape, &zero(xi), xi);
@@ -55,11 +49,12 @@ where
     c.within(formula, &case, (&bracket, &difference), tolerance)
 }
 
-fn retraction_laws<G, R>(c: &mut Checker, shape: &G, xi: &G::Algebra, eta: &G::Algebra) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-    R: Retraction,
-{
+fn retraction_laws<G: Family, R: Retraction>(
+    c: &mut Checker,
+    shape: &G,
+    xi: &G::Algebra,
+    eta: &G::Algebra,
+) -> Outcome {
     let case = || format!("{}, xi = {xi:?}, eta = {eta:?}", R::NAME);
     let scale = vector_size(xi).powi(3) * vector_size(eta);
     let (left, right) = (G::d_left::<R>(xi, eta), G::d_right::<R>(xi, eta));
@@ -91,31 +86,22 @@ where
 pub(super) type JetOf<G> = <<G as LieGroup>::Scalar as Scalar>::Jet;
 
 /// $\xi + s \eta$ with the dual variable $s$ at zero.
-pub(super) fn line<G>(
+pub(super) fn line<G: Family>(
     shape: &G,
     xi: &G::Algebra,
     eta: &G::Algebra,
-) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+) -> AlgebraOver<G, JetOf<G>> {
     let mut line = constant::<G>(shape, xi);
     let s = JetOf::<G>::variable(G::Scalar::from_f64(0.0), 0);
     line.add_scaled(s, &constant::<G>(shape, eta));
     line
 }
 
-pub(super) fn constant<G>(shape: &G, xi: &G::Algebra) -> <Over<G, JetOf<G>> as LieGroup>::Algebra
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+pub(super) fn constant<G: Family>(shape: &G, xi: &G::Algebra) -> AlgebraOver<G, JetOf<G>> {
     filled(&lifted(shape).zero_algebra(), &|i| Jet::constant(xi.get(i)))
 }
 
-fn lifted<G>(g: &G) -> Over<G, JetOf<G>>
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+fn lifted<G: Family>(g: &G) -> Over<G, JetOf<G>> {
     G::convert::<G::Scalar, JetOf<G>>(g, Jet::constant)
 }
 

@@ -1,16 +1,13 @@
 //! The transposes of the retractions' differentials, and the gradients of their inverses in the argument.
 
-use super::Outcome;
 use super::checker::{Checker, by_pairing, difference_tolerance};
 use super::differentials::{JetOf, central, constant, line, partial, step};
 use super::examples::Examples;
 use super::linear::{scaled, sum, vector_size};
+use super::{Family, Outcome};
 use crate::{Cayley, Exp, LieGroup, Over, Retraction};
 
-pub(super) fn check<G>(c: &mut Checker, examples: &Examples<G>) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
     for xi in &examples.velocities {
         transposes::<G, Exp>(c, examples, xi)?;
         transposes::<G, Cayley>(c, examples, xi)?;
@@ -52,16 +49,12 @@ fn transposes<G: LieGroup, R: Retraction>(
     Ok(())
 }
 
-fn gradients<G, R>(
+fn gradients<G: Family, R: Retraction>(
     c: &mut Checker,
     examples: &Examples<G>,
     xi: &G::Algebra,
     eta: &G::Algebra,
-) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-    R: Retraction,
-{
+) -> Outcome {
     let along = |e| derivative_by_duals::<G, R>(examples.shape(), xi, eta, e);
     let by_duals: Vec<_> = examples.basis.iter().map(along).collect();
     let along = |e| derivative_by_differences::<G, R>(xi, eta, e);
@@ -82,16 +75,12 @@ where
 }
 
 /// $\frac{d}{ds} \mathrm d\tau_{\xi + s e}^{-1} \eta$ at $s = 0$.
-fn derivative_by_duals<G, R>(
+fn derivative_by_duals<G: Family, R: Retraction>(
     shape: &G,
     xi: &G::Algebra,
     eta: &G::Algebra,
     e: &G::Algebra,
-) -> G::Algebra
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-    R: Retraction,
-{
+) -> G::Algebra {
     let (line, eta) = (line::<G>(shape, xi, e), constant::<G>(shape, eta));
     partial::<G>(xi, &Over::<G, JetOf<G>>::d_left_inv::<R>(&line, &eta))
 }

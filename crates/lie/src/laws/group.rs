@@ -1,15 +1,12 @@
 //! The group axioms, the forms that write in place, and the way back to the group.
 
-use super::Outcome;
 use super::checker::{Checker, size};
 use super::examples::Examples;
 use super::linear::{at_most, generic, zero};
+use super::{Family, Outcome};
 use crate::{Jet, LieGroup, Over, Scalar, Units, VectorSpace};
 
-pub(super) fn check<G>(c: &mut Checker, examples: &Examples<G>) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
     for g in examples.elements {
         zeros(c, g)?;
         units(c, g)?;
@@ -60,10 +57,7 @@ fn in_place<G: LieGroup>(c: &mut Checker, g: &G, h: &G) -> Outcome {
     c.elements("compose_into = compose", &case, (&out, &product), scale)
 }
 
-fn conversions<G>(c: &mut Checker, g: &G) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+fn conversions<G: Family>(c: &mut Checker, g: &G) -> Outcome {
     let (case, scale) = (|| format!("g = {g:?}"), size(g).powi(2));
     let same = G::convert::<G::Scalar, G::Scalar>(g, |x| x);
     c.elements("convert(g, x -> x) = g", &case, (&same, g), scale)?;
@@ -88,10 +82,7 @@ pub(super) fn other_than<G: LieGroup>(g: &G) -> G {
 /// $\delta^2 = \frac14 \varepsilon$, which is rounding; not normalised, or the wrong way, it is off by $\delta$.
 ///
 /// Where any numbers make an element ($\mathbb{R}^n$), normalising need not do anything.
-fn normalize<G>(c: &mut Checker, g: &G) -> Outcome
-where
-    G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>,
-{
+fn normalize<G: Family>(c: &mut Checker, g: &G) -> Outcome {
     let case = || format!("g = {g:?}");
     let normal = normalized(g);
     c.elements("normalize g = g", &case, (&normal, g), size(g).powi(2))?;

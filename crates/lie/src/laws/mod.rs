@@ -138,3 +138,8 @@ where
 }
 
 type Outcome = Result<(), LawError>;
+
+/// A group that is its own relative over its scalar, as all are: what dual numbers over it are made of.
+trait Family: LieGroup<WithScalar<<Self as LieGroup>::Scalar> = Self> {}
+
+impl<G: LieGroup<WithScalar<<G as LieGroup>::Scalar> = G>> Family for G {}
