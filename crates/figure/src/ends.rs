@@ -1,10 +1,11 @@
 //! Names beside a panel, each led to from the end of its line.
 
 use crate::colour::{INK, LEADER};
+use crate::font;
+use crate::line::{Level, Line};
 use crate::plot::Plot;
 use crate::svg::{Pen, Pixel, Svg};
 use crate::text::{LABEL, TICK, Text};
-use crate::{Line, Panel, font};
 
 /// Between the plot and the names: room for the leaders.
 const LEAD: f64 = 46.0;
@@ -13,22 +14,27 @@ const MARK: f64 = 18.0;
 /// Between the middle lines of two names.
 const PITCH: f64 = 1.15 * TICK;
 
+/// Where lines are named.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub enum Labels {
+    /// In one legend on top.
+    #[default]
+    Legend,
+    /// At their ends, on the right of each panel.
+    Ends,
+}
+
 /// What the names take beside the plots of a figure.
-pub(crate) fn room(panels: &[Panel]) -> f64 {
-    let labels = panels.iter().flat_map(|panel| {
-        let levels = panel.levels.iter().map(|level| level.label.as_str());
-        let lines = panel.lines.iter().map(|line| line.label.as_str());
-        lines.chain(levels)
-    });
-    LEAD + font::widest(labels, TICK)
+pub(crate) fn room<'a>(names: impl Iterator<Item = &'a str>) -> f64 {
+    LEAD + font::widest(names, TICK)
 }
 
 /// What is named, by which line if not by a level, and where it ends.
 type End<'a> = (&'a str, Option<&'a Line>, Pixel);
 
-/// Draws the names of a panel's lines and levels up to `right`, moved apart where they would overlap.
-pub(crate) fn draw(svg: &mut Svg, panel: &Panel, plot: &Plot, right: f64) {
-    let ends = ends(panel, plot);
+/// Draws the names of lines and levels up to `right`, moved apart where they would overlap.
+pub(crate) fn draw(svg: &mut Svg, named: (&[Line], &[Level]), plot: &Plot, right: f64) {
+    let ends = ends(named, plot);
     let bottom = plot.area.bottom() + LABEL / 2.0;
     let heights = spread(ends.iter().map(|(_, _, end)| end.1).collect(), bottom);
     let left = plot.area.right() + LEAD;
@@ -45,12 +51,12 @@ pub(crate) fn draw(svg: &mut Svg, panel: &Panel, plot: &Plot, right: f64) {
 }
 
 /// Downwards.
-fn ends<'a>(panel: &'a Panel, plot: &Plot) -> Vec<End<'a>> {
-    let lines = panel.lines.iter().filter_map(|line| {
+fn ends<'a>((lines, levels): (&'a [Line], &'a [Level]), plot: &Plot) -> Vec<End<'a>> {
+    let lines = lines.iter().filter_map(|line| {
         let end = *line.pixels(plot).last()?;
         Some((line.label.as_str(), Some(line), end))
     });
-    let levels = panel.levels.iter().filter_map(|level| {
+    let levels = levels.iter().filter_map(|level| {
         let end = (plot.area.right(), plot.height(level.y)?);
         Some((level.label.as_str(), None, end))
     });

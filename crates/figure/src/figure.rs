@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use crate::axis::Axis;
+use crate::ends::{self, Labels};
 use crate::grid::Grid;
 use crate::line::SAMPLE;
 use crate::page::{EDGE, Page};
@@ -10,7 +11,7 @@ use crate::panel::{ABOVE, BELOW};
 use crate::plot::{Plot, TICK_GAP};
 use crate::svg::Area;
 use crate::text::TICK;
-use crate::{FigureError, Line, Panel, Rendered, ends, font};
+use crate::{FigureError, Line, Panel, Rendered, font};
 
 /// Of a panel with all its labels.
 const WIDTH: f64 = 762.0;
@@ -20,16 +21,6 @@ const ROW_GAP: f64 = 24.0;
 const Y_LABEL: f64 = 32.0;
 /// Half a tick label may stand over the right end of a plot.
 const RIGHT: f64 = 22.0;
-
-/// Where lines are named.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
-pub enum Labels {
-    /// In one legend on top.
-    #[default]
-    Legend,
-    /// At their ends, on the right of each panel.
-    Ends,
-}
 
 /// A grid of charts, filled row by row.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,7 +99,7 @@ impl Figure {
                 page.legend(entries, SAMPLE, |svg, line, at| line.draw_sample(svg, at));
                 RIGHT
             }
-            Labels::Ends => ends::room(&self.panels).min(WIDTH / 2.0),
+            Labels::Ends => ends::room(self.panels.iter().flat_map(Panel::names)).min(WIDTH / 2.0),
         }
     }
 

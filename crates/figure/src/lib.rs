@@ -60,12 +60,13 @@ mod thin;
 
 pub use axis::Scale;
 pub use colour::Colour;
+pub use ends::Labels;
 pub use error::FigureError;
-pub use figure::{Figure, Labels};
-pub use line::{Line, Style};
+pub use figure::Figure;
+pub use line::{Level, Line, Style};
 pub use mark::Marker;
 pub use mosaic::{Kind, Mosaic, Tiles};
-pub use panel::{Level, Panel};
+pub use panel::Panel;
 
 /// A drawn picture.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -87,3 +87,12 @@ impl Line {
         svg.stroke(path, Pen::new(self.colour.rgb(), width, dashes));
     }
 }
+
+/// A named height across a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Printed at its right end where lines are named at their [`Ends`](crate::Labels::Ends), nowhere else.
+    pub label: String,
+    /// In the unit of the axis.
+    pub y: f64,
+}

@@ -2,11 +2,12 @@
 
 use crate::axis::{Axis, Scale, range};
 use crate::colour::FRAME;
-use crate::line::{DASHES, Line};
+use crate::ends::{self, Labels};
+use crate::font;
+use crate::line::{DASHES, Level, Line};
 use crate::plot::Plot;
 use crate::svg::{Pen, Svg};
 use crate::text::{LABEL, PANEL_TITLE, TICK, Text};
-use crate::{Labels, ends, font};
 
 /// Above the plot, for the title.
 pub(crate) const ABOVE: f64 = 36.0;
@@ -16,15 +17,6 @@ pub(crate) const BELOW: f64 = 54.0;
 const X_TICKS: usize = 7;
 const Y_TICKS: usize = 6;
 const Y_MARGIN: f64 = 0.06;
-
-/// A named height across a chart.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Level {
-    /// Printed at its right end where lines are named at their [`Ends`](Labels::Ends), nowhere else.
-    pub label: String,
-    /// In the unit of the axis.
-    pub y: f64,
-}
 
 /// One chart of the grid.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -46,6 +38,13 @@ pub struct Panel {
 }
 
 impl Panel {
+    /// The names of its lines and levels.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        let levels = self.levels.iter().map(|level| level.label.as_str());
+        let lines = self.lines.iter().map(|line| line.label.as_str());
+        lines.chain(levels)
+    }
+
     /// Axes over all that can be placed: the horizontal and the vertical one.
     pub(crate) fn axes(&self) -> (Axis, Axis) {
         // A zero on a logarithmic axis is not drawn, but its time counts.
@@ -70,7 +69,7 @@ impl Panel {
             svg.stroke(&plot.level(y), pen);
         }
         if labels == Labels::Ends {
-            ends::draw(svg, self, plot, right);
+            ends::draw(svg, (&self.lines, &self.levels), plot, right);
         }
         for line in &self.lines {
             line.draw(svg, plot);

@@ -1,9 +1,6 @@
 //! The times of a run: counted, not summed.
 
-use crate::error::{SimError, positive};
-
-/// More steps than this are taken for a slip: a day of computing and more.
-pub const MAX_STEPS: f64 = 1e11;
+use crate::error::{MAX_STEPS, SimError, positive};
 
 /// What rounding does to the quotient of two durations, relative, with room to spare.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;

@@ -4,8 +4,10 @@ use articulated_fluid::ModelError;
 use dvi::{PilotError, StepError};
 use thiserror::Error;
 
-use crate::clock::MAX_STEPS;
 use crate::number::decimal;
+
+/// More steps than this are taken for a slip: a day of computing and more.
+pub const MAX_STEPS: f64 = 1e11;
 
 /// Why a scene is not run, or not to its end.
 #[derive(Clone, Debug, PartialEq, Error)]

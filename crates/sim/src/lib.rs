@@ -46,8 +46,8 @@ pub mod table;
 mod watch;
 
 pub use choice::{Choice, Chosen};
-pub use clock::{Clock, MAX_STEPS};
-pub use error::SimError;
+pub use clock::Clock;
+pub use error::{MAX_STEPS, SimError};
 pub use frame::{Frame, Sample};
 pub use method::{BoxedIntegrator, Method, UnknownMethod};
 pub use report::Report;

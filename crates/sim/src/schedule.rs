@@ -1,7 +1,7 @@
 //! When samples are due: every so many steps, or every so many seconds.
 
-use crate::clock::{Clock, MAX_STEPS};
-use crate::error::{SimError, positive};
+use crate::clock::Clock;
+use crate::error::{MAX_STEPS, SimError, positive};
 
 /// The rule that samples follow; t = 0 and the end belong to every one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -30,10 +30,11 @@ mod timing;
 
 pub use cheapest::{Choice, cheapest};
 pub use errors::Errors;
+pub(crate) use errors::apart;
 pub use horizon::Horizon;
 pub use picture::picture;
+pub(crate) use reference::fastest_rate;
 pub use reference::{Reference, UnknownReference};
-pub(crate) use reference::{apart, fastest_rate};
 pub use sweep::{Curve, MEANINGFUL, Measured, Point, Sweep};
 pub use table::csv;
 pub(crate) use table::{optional, quoted};

@@ -1,9 +1,7 @@
 //! Systems that the tests share.
 
 use dvi::{Context, Force, Lagrangian, State, System};
-use lie::{
-    Cotangent, Exp, LieGroup, Mat3, Retraction, Rn, SE3, SO3, Scalar, Tangent, Vec3, VectorSpace,
-};
+use lie::{Cotangent, LieGroup, Mat3, Rn, SE3, SO3, Scalar, Tangent, Vec3, VectorSpace};
 
 /// A heavy top without symmetry, by its value alone.
 #[derive(Clone, Copy)]

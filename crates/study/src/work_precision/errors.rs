@@ -116,3 +116,12 @@ mod tests {
         assert!(angle(&a, &nowhere).is_nan());
     }
 }
+
+/// The largest angle, rad, between bodies of two states; infinite where one is not a number.
+pub(crate) fn apart(
+    model: &ArticulatedBody,
+    a: &State<Configuration>,
+    b: &State<Configuration>,
+) -> f64 {
+    distance(model, &a.g, &b.g).map_or(f64::INFINITY, |(angle, _)| angle)
+}

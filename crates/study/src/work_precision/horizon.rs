@@ -5,11 +5,13 @@ use dvi::State;
 use lie::VectorSpace;
 use serde::Serialize;
 
-use super::reference::{TOLERANCE, apart};
+use super::errors::apart;
 use crate::baseline::Tolerance;
 use crate::baseline::on_group::{self, ReferenceError};
 use crate::contender::Problem;
 
+/// Of the reference's steps.
+pub(super) const TOLERANCE: f64 = 1e-13;
 /// Of the momenta, relative to the largest.
 const PERTURBATION: f64 = 1e-10;
 /// A difference in attitude that is still small, rad: its growth tells that of smaller ones.

@@ -6,14 +6,12 @@ use serde::Serialize;
 use sim::Method;
 use thiserror::Error;
 
-use super::errors::distance;
+use super::horizon::TOLERANCE;
 use super::{Errors, Horizon, SAMPLES};
 use crate::baseline::Tolerance;
 use crate::baseline::on_group::{self, ReferenceError};
 use crate::contender::{Contender, Failure, Problem, Setting};
 
-/// Of the reference's steps.
-pub(super) const TOLERANCE: f64 = 1e-13;
 /// The method that must agree with it.
 const CHECK: Contender = Contender::Structure(Method::gauss(8).unwrap());
 /// The check's steps are halved at most this often.
@@ -130,15 +128,6 @@ fn confirm(
 fn radian(model: &ArticulatedBody, states: &[State<Configuration>], until: f64) -> f64 {
     let rates = states.iter().filter_map(|state| fastest_rate(model, state));
     (1.0 / rates.fold(0.0, f64::max)).min(until)
-}
-
-/// The largest angle, rad, between bodies of two states; infinite where one is not a number.
-pub(crate) fn apart(
-    model: &ArticulatedBody,
-    a: &State<Configuration>,
-    b: &State<Configuration>,
-) -> f64 {
-    distance(model, &a.g, &b.g).map_or(f64::INFINITY, |(angle, _)| angle)
 }
 
 /// The largest angular velocity of a body, rad/s; `None` where the state does not fit the model.
