@@ -4,7 +4,8 @@ use crate::colour::{INK, LEADER};
 use crate::font;
 use crate::line::{Level, Line};
 use crate::plot::Plot;
-use crate::svg::{Pen, Pixel, Svg};
+use crate::svg::{Pen, Svg};
+use crate::text::Pixel;
 use crate::text::{LABEL, TICK, Text};
 
 /// Between the plot and the names: room for the leaders.

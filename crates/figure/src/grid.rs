@@ -1,7 +1,7 @@
 //! Where the panels of a figure are.
 
 use crate::FigureError;
-use crate::svg::Pixel;
+use crate::text::Pixel;
 
 const MAX_COLUMNS: usize = 6;
 const MAX_ROWS: usize = 24;

@@ -2,7 +2,8 @@
 
 use crate::font;
 use crate::page::{EDGE, Page};
-use crate::svg::{Pixel, Svg};
+use crate::svg::Svg;
+use crate::text::Pixel;
 use crate::text::{LABEL, Text};
 
 const AFTER_SAMPLE: f64 = 9.0;

@@ -3,7 +3,8 @@
 use crate::Marker;
 use crate::colour::Colour;
 use crate::plot::Plot;
-use crate::svg::{Pen, Pixel, Svg};
+use crate::svg::{Pen, Svg};
+use crate::text::Pixel;
 use crate::thin::thin;
 
 /// Of strokes, in pixels.

@@ -2,7 +2,8 @@
 
 use crate::axis::Axis;
 use crate::colour::{FRAME, RULE};
-use crate::svg::{Area, Pixel, Svg};
+use crate::svg::{Area, Svg};
+use crate::text::Pixel;
 use crate::text::{TICK, Text};
 
 /// Between a tick and its label.

@@ -2,10 +2,7 @@
 
 use crate::colour::{PAPER, Rgb};
 use crate::font::{FAMILY, HALF_CAPITAL};
-use crate::text::Text;
-
-/// A point of the drawing, in pixels; `y` grows downwards.
-pub(crate) type Pixel = (f64, f64);
+use crate::text::{Pixel, Text};
 
 /// An upright rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]

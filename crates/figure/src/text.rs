@@ -4,7 +4,9 @@ use std::borrow::Cow;
 
 use crate::colour::{INK, Rgb};
 use crate::font;
-use crate::svg::Pixel;
+
+/// A point of the drawing, in pixels; `y` grows downwards.
+pub(crate) type Pixel = (f64, f64);
 
 /// Sizes of the em, in pixels.
 pub(crate) const TITLE: f64 = 23.0;

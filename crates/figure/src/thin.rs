@@ -1,6 +1,6 @@
 //! No more points than pixels can show.
 
-use crate::svg::Pixel;
+use crate::text::Pixel;
 
 /// Keeps the lowest and the highest of every run of points within one pixel column, and the two ends of the line.
 pub(crate) fn thin(points: &[Pixel]) -> Vec<Pixel> {

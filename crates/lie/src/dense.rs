@@ -2,38 +2,36 @@
 
 use num_traits::{One, Zero};
 
-use crate::{LieGroup, Scalar, VectorSpace};
+use crate::{Scalar, VectorSpace};
 
 /// The $\nu$ with $\langle \nu, e_i \rangle = \langle \mu, A e_i \rangle$ for the basis $e_i$ of the algebra.
-pub(crate) fn transpose_by_pairing<G: LieGroup>(
-    mu: &G::Dual,
-    shape: &G::Algebra,
-    map: impl Fn(&G::Algebra) -> G::Algebra,
-) -> G::Dual {
+pub(crate) fn transpose_by_pairing<A: VectorSpace, D: VectorSpace<Scalar = A::Scalar>>(
+    mu: &D,
+    shape: &A,
+    pair: impl Fn(&D, &A) -> A::Scalar,
+    map: impl Fn(&A) -> A,
+) -> D {
     let mut nu = mu.zero_like();
     for i in 0..mu.dim() {
-        nu.set(i, G::pair(mu, &map(&basis(shape, i))));
+        nu.set(i, pair(mu, &map(&basis(shape, i))));
     }
     nu
 }
 
 /// The $x$ with $A x = b$, by Gauss–Jordan elimination with row pivoting; not finite where $A$ is singular.
-pub(crate) fn solve<G: LieGroup>(
-    b: &G::Algebra,
-    map: impl Fn(&G::Algebra) -> G::Algebra,
-) -> G::Algebra {
+pub(crate) fn solve<A: VectorSpace>(b: &A, map: impl Fn(&A) -> A) -> A {
     let n = b.dim();
     let columns: Vec<_> = (0..n).map(|j| map(&basis(b, j))).collect();
-    let mut rows: Vec<Vec<G::Scalar>> = (0..n)
+    let mut rows: Vec<Vec<A::Scalar>> = (0..n)
         .map(|i| columns.iter().chain([b]).map(|c| c.get(i)).collect())
         .collect();
     for k in 0..n {
-        let size = |row: &Vec<G::Scalar>| row[k].magnitude();
+        let size = |row: &Vec<A::Scalar>| row[k].magnitude();
         let pivot = (k..n).max_by(|&i, &j| size(&rows[i]).total_cmp(&size(&rows[j])));
         rows.swap(k, pivot.unwrap_or(k));
         let head: Vec<_> = rows[k].iter().map(|&x| x / rows[k][k]).collect();
         for (i, row) in rows.iter_mut().enumerate() {
-            let factor = if i == k { G::Scalar::zero() } else { row[k] };
+            let factor = if i == k { A::Scalar::zero() } else { row[k] };
             for (x, &h) in row.iter_mut().zip(&head) {
                 *x = if i == k { h } else { *x - factor * h };
             }

@@ -4,8 +4,9 @@ use core::fmt::Debug;
 
 use num_traits::{One, Zero};
 
+use crate::series::{exponential, polynomial, polynomial_gradient};
 use crate::{
-    Chart, Jet, NotUnique, OutsideChart, Retraction, Scalar, Units, VectorSpace, dense, series,
+    Chart, Exp, Jet, NotUnique, OutsideChart, Retraction, Scalar, Units, VectorSpace, dense,
 };
 
 /// The group `G` with its numbers replaced by `S`.
@@ -128,12 +129,12 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
 
     /// $\mathrm{Ad}^\ast\_g \mu$, with $\langle \mathrm{Ad}^\ast\_g \mu, \xi\rangle = \langle \mu, \mathrm{Ad}\_g \xi\rangle$.
     fn coadjoint(&self, mu: &Self::Dual) -> Self::Dual {
-        dense::transpose_by_pairing::<Self>(mu, &self.zero_algebra(), |e| self.adjoint(e))
+        dense::transpose_by_pairing(mu, &self.zero_algebra(), Self::pair, |e| self.adjoint(e))
     }
 
     /// $\mathrm{ad}^\ast\_\xi \mu$, with $\langle \mathrm{ad}^\ast\_\xi \mu, \eta\rangle = \langle \mu, \mathrm{ad}\_\xi \eta\rangle$.
     fn coadjoint_bracket(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::bracket(xi, e))
+        dense::transpose_by_pairing(mu, xi, Self::pair, |e| Self::bracket(xi, e))
     }
 
     // Provided: the retractions.
@@ -205,32 +206,32 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
 
     /// The left-trivialised differential $\mathrm d\tau_\xi \eta = \tau(\xi)^{-1} \frac{d}{ds}\vert_{s=0} \tau(\xi + s \eta)$.
     ///
-    /// The default is the exponential's [series](crate::series::dexp), for both retractions, as the Cayley map is the
+    /// The default is the exponential's [series](crate::dexp), for both retractions, as the Cayley map is the
     /// exponential by default. A group that has a Cayley map of its own gives this method and
     /// [the gradient](Self::d_left_inv_gradient) too.
     fn d_left<R: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-        series::dexp::<Self>(xi, eta)
+        dexp::<Self>(xi, eta)
     }
 
     /// $\mathrm d\tau_\xi^{-1} \eta$; the default solves a linear system of size `dim`.
     fn d_left_inv<R: Retraction>(xi: &Self::Algebra, eta: &Self::Algebra) -> Self::Algebra {
-        dense::solve::<Self>(eta, |e| Self::d_left::<R>(xi, e))
+        dense::solve(eta, |e| Self::d_left::<R>(xi, e))
     }
 
     /// $(\mathrm d\tau_\xi)^\ast \mu$, the $\nu$ with
     /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\tau_\xi \eta\rangle$.
     fn d_left_dual<R: Retraction>(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::d_left::<R>(xi, e))
+        dense::transpose_by_pairing(mu, xi, Self::pair, |e| Self::d_left::<R>(xi, e))
     }
 
     /// $(\mathrm d\tau_\xi^{-1})^\ast \mu$, the $\nu$ with
     /// $\langle \nu, \eta\rangle = \langle \mu, \mathrm d\tau_\xi^{-1} \eta\rangle$.
     fn d_left_inv_dual<R: Retraction>(xi: &Self::Algebra, mu: &Self::Dual) -> Self::Dual {
-        dense::transpose_by_pairing::<Self>(mu, xi, |e| Self::d_left_inv::<R>(xi, e))
+        dense::transpose_by_pairing(mu, xi, Self::pair, |e| Self::d_left_inv::<R>(xi, e))
     }
 
     /// The gradient in $\xi$ of $\langle \mu, \mathrm d\tau_\xi^{-1} \eta\rangle$, with $\mu$ and $\eta$ fixed; the default
-    /// is the exponential's [series](crate::series::dexp_inv_gradient).
+    /// is the exponential's [series](crate::dexp_inv_gradient).
     ///
     /// ```
     /// use lie::{Cayley, Cotangent, LieGroup, SO3, Tangent};
@@ -245,7 +246,7 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         mu: &Self::Dual,
         eta: &Self::Algebra,
     ) -> Self::Dual {
-        series::dexp_inv_gradient::<Self>(xi, mu, eta)
+        dexp_inv_gradient::<Self>(xi, mu, eta)
     }
 
     /// The right-trivialised differential: $\frac{d}{ds}\vert_{s=0} \tau(\xi + s \eta) \tau(\xi)^{-1}$, which is
@@ -409,5 +410,35 @@ pub fn seed<V: VectorSpace<Scalar: Jet>>(zeta: &mut V, first: usize) {
             _ => V::Scalar::constant(zero),
         };
         zeta.set(i, x);
+    }
+}
+
+/// $\mathrm d\exp_\xi \eta = \sum_k \frac{(-1)^k}{(k+1)!} \mathrm{ad}_\xi^k \eta$, to rounding for $\lVert \mathrm{ad}_\xi \rVert \le 2\pi$.
+///
+/// The default of [`LieGroup::d_left`]; a group that has closed forms for its Cayley map alone calls it for the exponential.
+pub fn dexp<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
+    polynomial(eta, &exponential(), |x| G::bracket(xi, x))
+}
+
+/// The gradient in $\xi$ of $\langle \mu, \mathrm d\exp_\xi^{-1} \eta\rangle$: that of
+/// $-\langle \nu, \mathrm d\exp_\xi \zeta\rangle$ with $\nu = (\mathrm d\exp_\xi^{-1})^\ast \mu$ and
+/// $\zeta = \mathrm d\exp_\xi^{-1} \eta$ fixed.
+///
+/// The default of [`LieGroup::d_left_inv_gradient`].
+pub fn dexp_inv_gradient<G: LieGroup>(xi: &G::Algebra, mu: &G::Dual, eta: &G::Algebra) -> G::Dual {
+    let nu = G::d_left_inv_dual::<Exp>(xi, mu);
+    let zeta = G::d_left_inv::<Exp>(xi, eta);
+    let maps = (G::bracket, G::coadjoint_bracket, G::pair);
+    let (mut gradient, _) = polynomial_gradient((xi, &nu, &zeta), &exponential(), maps);
+    gradient.scale(-G::Scalar::one());
+    gradient
+}
+
+impl Units {
+    /// The units of a group's coordinates.
+    pub fn of<G: LieGroup>(g: &G) -> Self {
+        let mut units = Self::default();
+        g.units(&mut units);
+        units
     }
 }

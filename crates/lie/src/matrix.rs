@@ -17,6 +17,21 @@ use crate::{Scalar, Vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mat3<S = f64>(pub [[S; 3]; 3]);
 
+impl<S: Scalar> Vec3<S> {
+    /// The hat map $\hat{\cdot}: \mathbb{R}^3 \to \mathfrak{so}(3)$, $\hat x y = x \times y$.
+    #[inline(always)]
+    pub fn hat(self) -> Mat3<S> {
+        let ([x, y, z], o) = (self.0, S::zero());
+        Mat3([[o, -z, y], [z, o, -x], [-y, x, o]])
+    }
+
+    /// $x y^T$.
+    #[inline(always)]
+    pub fn outer(self, y: Self) -> Mat3<S> {
+        Mat3([(y * self[0]).0, (y * self[1]).0, (y * self[2]).0])
+    }
+}
+
 impl<S: Scalar> Mat3<S> {
     /// The zero matrix.
     #[inline(always)]

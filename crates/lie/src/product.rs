@@ -375,7 +375,7 @@ macro_rules! equal {
                 self.len() == other.len() && self.iter().zip(other.iter()).all(|(a, b)| a.same_shape(b))
             }
             fn units(&self, units: &mut Units) {
-                units.repeat(self.iter());
+                units.repeat(self.len(), |units| self[0].units(units));
             }
         }
     };

@@ -26,13 +26,6 @@ pub struct Units {
 }
 
 impl Units {
-    /// The units of a group's coordinates.
-    pub fn of<G: crate::LieGroup>(g: &G) -> Self {
-        let mut units = Self::default();
-        g.units(&mut units);
-        units
-    }
-
     /// Appends a block of `n` angles.
     pub fn angles(&mut self, n: usize) {
         let kind = *self.angle.get_or_insert(self.kinds);
@@ -46,18 +39,15 @@ impl Units {
         self.kinds += 1;
     }
 
-    /// Appends equal factors, which share their kinds.
-    pub(crate) fn repeat<'a, G: crate::LieGroup>(
-        &mut self,
-        mut factors: impl Iterator<Item = &'a G>,
-    ) {
-        let first = self.blocks.len();
-        let Some(factor) = factors.next() else {
+    /// Appends so many equal factors, which share their kinds.
+    pub(crate) fn repeat(&mut self, count: usize, append_first: impl FnOnce(&mut Self)) {
+        if count == 0 {
             return;
-        };
-        factor.units(self);
+        }
+        let first = self.blocks.len();
+        append_first(self);
         let last = self.blocks.len();
-        for _ in factors {
+        for _ in 1..count {
             for block in first..last {
                 let (coordinates, kind) = &self.blocks[block];
                 self.push(coordinates.len(), *kind);

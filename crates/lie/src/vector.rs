@@ -2,8 +2,8 @@
 
 use core::ops::{Index, IndexMut};
 
+use crate::Scalar;
 use crate::operators::linear_operators;
-use crate::{Mat3, Scalar};
 
 /// A vector of three numbers, $x \in \mathbb{R}^3$.
 ///
@@ -61,19 +61,6 @@ impl<S: Scalar> Vec3<S> {
             y[1].mul_add(a, x1),
             y[2].mul_add(a, x2),
         ])
-    }
-
-    /// The hat map $\hat{\cdot}: \mathbb{R}^3 \to \mathfrak{so}(3)$, $\hat x y = x \times y$.
-    #[inline(always)]
-    pub fn hat(self) -> Mat3<S> {
-        let ([x, y, z], o) = (self.0, S::zero());
-        Mat3([[o, -z, y], [z, o, -x], [-y, x, o]])
-    }
-
-    /// $x y^T$.
-    #[inline(always)]
-    pub fn outer(self, y: Self) -> Mat3<S> {
-        Mat3([(y * self[0]).0, (y * self[1]).0, (y * self[2]).0])
     }
 
     /// $|x|^2$.

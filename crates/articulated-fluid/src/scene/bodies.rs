@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use toml::Spanned;
 
-use super::SceneBody;
+use super::description::SceneBody;
 use super::error::SceneError;
 use super::forms::{self, Inertial, Surroundings};
 use super::raw::{Node, RawBody};

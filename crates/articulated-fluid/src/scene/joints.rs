@@ -2,8 +2,8 @@
 
 use toml::Spanned;
 
-use super::SceneJoint;
 use super::bodies::Names;
+use super::description::SceneJoint;
 use super::error::SceneError;
 use super::raw::{Node, RawJoint};
 use super::source::{Source, quote};

@@ -4,7 +4,7 @@ use std::fmt;
 
 use lie::{Mat3, SO3, Vec3};
 
-use super::{Scene, SceneBody};
+use super::description::{Scene, SceneBody};
 
 /// Ellipsoids closer than this to touching, relative to the distance of their centres, only touch.
 const TOUCHING: f64 = 1e-9;

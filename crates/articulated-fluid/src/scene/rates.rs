@@ -3,11 +3,11 @@
 use lie::{SO3, Vec3};
 use toml::Spanned;
 
+use super::description::{SceneBody, SceneJoint};
 use super::error::SceneError;
 use super::raw::{Node, RawBody};
 use super::source::Source;
 use super::values::{array, triple_or_zero};
-use super::{SceneBody, SceneJoint};
 
 /// Sets the absolute rates of the `bodies`, each of which comes after its parent.
 pub(super) fn set(

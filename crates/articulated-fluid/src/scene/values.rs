@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use super::StartVelocity;
+use super::description::StartVelocity;
 use super::error::SceneError;
 use super::note::{Correction, PUBLISHED, ROUNDING};
 use super::raw::{Field, RawAxisAngle, RawRotation, WordOr};

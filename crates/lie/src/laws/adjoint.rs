@@ -1,9 +1,9 @@
 //! The adjoint action, the bracket, and their transposes.
 
-use super::Outcome;
 use super::checker::{Checker, by_pairing, size, tolerance};
 use super::examples::Examples;
 use super::linear::{generic, scaled, sum, vector_size};
+use super::verdict::Outcome;
 use crate::{LieGroup, Scalar, VectorSpace};
 
 pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Outcome {

@@ -3,7 +3,7 @@
 use super::checker::{Checker, size};
 use super::examples::Examples;
 use super::linear::{at_most, generic, scaled, vector_size};
-use super::{Family, Outcome};
+use super::verdict::{Family, Outcome};
 use crate::{Cayley, Exp, LieGroup, Retraction, Scalar, VectorSpace};
 
 /// Products of one small displacement, in a row.

@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 
 use super::linear::{basis, filled, vector_size, zero};
-use super::{LawError, Outcome};
+use super::verdict::{LawError, Outcome};
 use crate::{LieGroup, Scalar, VectorSpace};
 
 /// Roundings that a law may gather, in units of $\varepsilon$ and of the operands' sizes.

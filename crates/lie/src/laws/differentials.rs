@@ -3,7 +3,7 @@
 use super::checker::{Checker, difference_tolerance, log_of};
 use super::examples::Examples;
 use super::linear::{filled, scaled, sum, vector_size, zero};
-use super::{Family, Outcome};
+use super::verdict::{Family, Outcome};
 use crate::{AlgebraOver, Cayley, Exp, Jet, LieGroup, Over, Retraction, Scalar, VectorSpace};
 
 pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {

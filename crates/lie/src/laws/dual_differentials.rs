@@ -4,7 +4,7 @@ use super::checker::{Checker, by_pairing, difference_tolerance};
 use super::differentials::{JetOf, central, constant, line, partial, step};
 use super::examples::Examples;
 use super::linear::{scaled, sum, vector_size};
-use super::{Family, Outcome};
+use super::verdict::{Family, Outcome};
 use crate::{Cayley, Exp, LieGroup, Over, Retraction};
 
 pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {

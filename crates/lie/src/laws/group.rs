@@ -3,7 +3,7 @@
 use super::checker::{Checker, size};
 use super::examples::Examples;
 use super::linear::{at_most, generic, zero};
-use super::{Family, Outcome};
+use super::verdict::{Family, Outcome};
 use crate::{Jet, LieGroup, Over, Scalar, Units, VectorSpace};
 
 pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {

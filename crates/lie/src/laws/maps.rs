@@ -1,10 +1,10 @@
 //! The exponential, the Cayley map, and their inverses.
 
-use super::Outcome;
 use super::checker::{Checker, log_of, size, tolerance};
 use super::examples::Examples;
 use super::group::other_than;
 use super::linear::{at_most, length, scaled, vector_size, zero};
+use super::verdict::Outcome;
 use crate::{Cayley, Exp, LieGroup, Retraction, Scalar};
 
 pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Outcome {

@@ -1,8 +1,8 @@
 //! The laws of a vector space: its methods against `get` and `set`.
 
-use super::Outcome;
 use super::checker::{Checker, tolerance};
 use super::linear::{filled, generic, zero};
+use super::verdict::Outcome;
 use crate::{Scalar, VectorSpace};
 
 /// Checks the methods, starting from vectors filled with other numbers than they must leave.

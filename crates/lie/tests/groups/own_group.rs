@@ -5,7 +5,7 @@ use core::cell::Cell;
 use lie::laws::{self, LawError};
 use lie::{
     Cayley, Chart, Cotangent, Exp, LieGroup, NotUnique, OutsideChart, Over, Retraction, SE3, SO3,
-    Scalar, Tangent, Vec3, VectorSpace, series,
+    Scalar, Tangent, Vec3, VectorSpace, dexp,
 };
 
 /// The Heisenberg group of upper triangular 3×3 matrices with ones on the diagonal, by its entries.
@@ -343,7 +343,7 @@ impl<S: Scalar> LieGroup for Slow<S> {
         }
     }
     fn d_left<R: Retraction>(xi: &Twist<S>, eta: &Twist<S>) -> Twist<S> {
-        let (dexp, twice) = (series::dexp::<Self>, |x: &Twist<S>| Twist(times(2.0, x.0)));
+        let (dexp, twice) = (dexp::<Self>, |x: &Twist<S>| Twist(times(2.0, x.0)));
         match (R::CHART, mistake()) {
             // The right-trivialised one in place of the left, at which one guesses wrong half the time.
             (Chart::Cayley, DIFFERENTIAL) => dexp(&Twist(-xi.0), eta),
