@@ -31,6 +31,10 @@ impl DiscreteLagrangian for ValueOnly {
     ) -> S {
         DiscreteLagrangian::value(&self.0, at, g, f, h)
     }
+
+    fn is_defined(&self, _: f64, _: &Configuration) -> bool {
+        true
+    }
 }
 
 /// The paper's scene by an explicit method of order 8 at a tight tolerance.

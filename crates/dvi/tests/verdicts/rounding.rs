@@ -144,8 +144,8 @@ impl ContinuousSystem for Beam {
             let (p, r) = (here.rotation.matrix(), next.rotation.matrix());
             let moment = (0..3).fold(Vec3::zero(), |sum, j| sum + p.row(j).cross(r.row(j)));
             let torque = moment * (bend * S::from_f64(0.5));
-            tau[i] = tau[i] + (LENGTH.lift::<S>().cross(pull) - torque, pull).into();
-            tau[i + 1] = tau[i + 1] + (torque, -pulled).into();
+            tau[i] += (LENGTH.lift::<S>().cross(pull) - torque, pull).into();
+            tau[i + 1] += (torque, -pulled).into();
         }
     }
 }
