@@ -1,10 +1,7 @@
 //! What an integrator answers when it cannot step.
 
-use thiserror::Error;
-
 /// A step that was not taken. The state is as it was before.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("step {step} at t = {} s, h = {} s: {cause}", nine_digits(*t), nine_digits(*h))]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepError {
     /// Steps that this integrator has taken before.
     pub step: u64,
@@ -17,13 +14,10 @@ pub struct StepError {
 }
 
 /// Why a step was not taken.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cause {
     /// The implicit equation was not solved.
-    #[error(
-        "no solution found after {iterations} iterations (residual {residual:.1e} of the momentum); {hint}"
-    )]
     NotConverged {
         /// The smallest residual reached, relative to the momentum's size.
         residual: f64,
@@ -33,17 +27,10 @@ pub enum Cause {
         hint: Hint,
     },
     /// The step size is zero or not finite.
-    #[error("the step size must be a finite number other than zero")]
     InvalidStep,
     /// The configuration is not one of the model's.
-    #[error(
-        "the configuration does not fit the model (another number of bodies?); make it from the model"
-    )]
     Misfit,
     /// The momentum has another number of factors than the configuration.
-    #[error(
-        "the momentum does not have the configuration's shape ({expected} coordinates, found {found}); make it of `g.zero_dual()`"
-    )]
     Shape {
         /// Coordinates of the configuration's dual.
         expected: usize,
@@ -51,18 +38,53 @@ pub enum Cause {
         found: usize,
     },
     /// The kinetic energy has no inertia in some direction.
-    #[error(
-        "the kinetic energy has no inertia along coordinate {coordinate} of the velocity; give it one there (a Lagrangian that is linear in a velocity has none: such are not supported)"
-    )]
     Degenerate {
         /// Index of a coordinate of the algebra along which there is none, with the coordinates eliminated before it held free.
         coordinate: usize,
     },
     /// The state, the model or the state after the step has a number that is not finite.
-    #[error(
-        "a number is not finite: in the state, in the velocity or the derivatives at it, or in the state after the step; check that the initial state is in the domain of the Lagrangian, the model's parameters, and whether the step leaves the domain"
-    )]
     NotFinite,
+}
+
+impl core::error::Error for StepError {}
+
+impl core::fmt::Display for StepError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { step, t, h, cause } = self;
+        write!(f, "step {step} at t = {} s: ", nine_digits(*t))?;
+        match cause {
+            Cause::NotConverged {
+                residual,
+                iterations,
+                hint,
+            } => write!(
+                f,
+                "no solution found for h = {} s after {iterations} iterations (residual {residual:.1e} of the momentum); {hint}",
+                nine_digits(*h)
+            ),
+            Cause::InvalidStep => write!(
+                f,
+                "the step size is {h} s; expected a finite number other than zero"
+            ),
+            Cause::Misfit => write!(
+                f,
+                "the configuration does not fit the model (another number of bodies?); make it from the model"
+            ),
+            Cause::Shape { expected, found } => write!(
+                f,
+                "the momentum does not have the configuration's shape ({expected} coordinates, found {found}); make it of `g.zero_dual()`"
+            ),
+            Cause::Degenerate { coordinate } => write!(
+                f,
+                "the kinetic energy has no inertia along coordinate {coordinate} of the velocity; give it one there (a Lagrangian that is linear in a velocity has none: such are not supported)"
+            ),
+            Cause::NotFinite => write!(
+                f,
+                "a number is not finite: in the state, in the velocity or the derivatives at it, or in the state after a step of {} s; check that the initial state is in the domain of the Lagrangian, the model's parameters, and whether the step leaves the domain",
+                nine_digits(*h)
+            ),
+        }
+    }
 }
 
 impl Cause {
