@@ -98,7 +98,7 @@ impl Contender {
     /// What it is, in a line.
     pub fn description(self) -> String {
         match self {
-            Self::Structure(method) => return method.description().to_owned(),
+            Self::Structure(method) => method.description().to_owned(),
             Self::Pilot => {
                 "variational Gauss collocation, its stages and step chosen by a pilot run"
                     .to_owned()

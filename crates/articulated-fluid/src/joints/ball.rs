@@ -27,7 +27,7 @@ impl<S: Scalar> Link<S> {
         let y = rows(&self.x, |row| ldl.forward(row));
         let scaled = rows(&y, |row| ldl.scale(row));
         self.x = rows(&scaled, |row| ldl.backward(row));
-        self.mass = self.mass - Sym3::product(&scaled, &y);
+        self.mass -= Sym3::product(&scaled, &y);
         self.ldl = ldl;
     }
 

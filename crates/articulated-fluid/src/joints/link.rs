@@ -59,7 +59,7 @@ impl<S: Scalar> Link<S> {
         let nl = n.times_hat(lever);
         self.mass += n;
         self.x += nl;
-        self.h = self.h - Sym3::hat_times(lever, &nl);
+        self.h -= Sym3::hat_times(lever, &nl);
     }
 
     /// Adds the child's force $C f^\ast$, at the lever $l$.

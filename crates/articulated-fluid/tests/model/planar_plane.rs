@@ -106,11 +106,11 @@ fn what_is_off_the_plane_is_named_and_measured() {
     });
     assert_refused(SpinOffPlane, 2, TILT, |parts, flat| {
         let across = flat.parts[2].frame.rotate(Vec3([TILT, 0.0, 0.0]));
-        parts.xi.0[2] = parts.xi.0[2] + across.into();
+        parts.xi.0[2] += across.into();
     });
     assert_refused(VelocityOffPlane, 0, TILT / 0.63, |parts, flat| {
         let along = flat.world.rotate(Vec3([0.0, 0.0, TILT]));
-        parts.xi.1[0] = parts.xi.1[0] + along.into();
+        parts.xi.1[0] += along.into();
     });
     assert_refused(GravityOffPlane, 0, 0.5 * TILT, |parts, flat| {
         parts.gravity += flat.world.rotate(Vec3([0.0, 0.0, TILT]));

@@ -98,6 +98,15 @@ fn angle(a: &SO3, b: &SO3) -> f64 {
     2.0 * if sine > 1.0 { 1.0 } else { sine }.asin()
 }
 
+/// The largest angle, rad, between bodies of two states; infinite where one is not a number.
+pub(crate) fn apart(
+    model: &ArticulatedBody,
+    a: &State<Configuration>,
+    b: &State<Configuration>,
+) -> f64 {
+    distance(model, &a.g, &b.g).map_or(f64::INFINITY, |(angle, _)| angle)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,13 +124,4 @@ mod tests {
         let nowhere = SO3::from_matrix_unchecked(Mat3::diagonal([f64::NAN; 3]));
         assert!(angle(&a, &nowhere).is_nan());
     }
-}
-
-/// The largest angle, rad, between bodies of two states; infinite where one is not a number.
-pub(crate) fn apart(
-    model: &ArticulatedBody,
-    a: &State<Configuration>,
-    b: &State<Configuration>,
-) -> f64 {
-    distance(model, &a.g, &b.g).map_or(f64::INFINITY, |(angle, _)| angle)
 }
