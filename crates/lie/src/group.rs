@@ -42,7 +42,7 @@ pub type DualOver<G, S> = <Over<G, S> as LieGroup>::Dual;
 /// - Transposes: [`coadjoint`](Self::coadjoint), [`coadjoint_bracket`](Self::coadjoint_bracket); by the pairing.
 /// - The [Cayley map](Self::cayley) and [its inverse](Self::cayley_inverse), [`sqrt`](Self::sqrt); by `exp` and `log`.
 /// - Differentials of both retractions: [`d_left`](Self::d_left), its inverse, their transposes, a gradient; by
-///   [series](crate::series) and small linear systems. A closed form matches on [`R::CHART`](Retraction::CHART).
+///   [series](crate::dexp) and small linear systems. A closed form matches on [`R::CHART`](Retraction::CHART).
 /// - Shape: [`same_shape`](Self::same_shape), [`units`](Self::units), [`identity_like`](Self::identity_like).
 /// - Steps of integrators: the `*_into` methods write into an existing element of the same shape,
 ///   [`advance`](Self::advance) compensates rounding. Run-time-sized groups override them so as not to allocate.

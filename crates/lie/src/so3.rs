@@ -380,7 +380,7 @@ impl<S: Scalar> LieGroup for SO3<S> {
         }
     }
 
-    /// $1 + \frac12 \hat\xi + g(|\xi|^2) \hat\xi^2$ with $g$ of [`dexp_inv_factor`], or
+    /// $1 + \frac12 \hat\xi + g(|\xi|^2) \hat\xi^2$ with $g$ of `dexp_inv_factor`, or
     /// $1 + \frac12 \hat\xi + \frac14 \xi \xi^T$.
     #[inline(always)]
     fn d_left_inv<R: Retraction>(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
