@@ -10,7 +10,7 @@ use std::time::Instant;
 use figure::{Colour, Figure, Line, Panel, Scale, Style};
 use lgvi::articulated_fluid::Scene;
 use lgvi::lie::Vec3;
-use lgvi::sim::{Choice, Frame, Method, Plan, Schedule, Simulation};
+use lgvi::sim::{Choice, Frame, Method, Plan, Schedule, Simulation, file};
 use study::baseline::{Motion, Pair, Tolerance};
 
 /// The paper's step, s.
@@ -46,8 +46,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     fs::create_dir_all("out")?;
     let drawn = figure(&lost, &kept).render()?;
-    fs::write("out/fish_chain.svg", drawn.svg)?;
-    fs::write("out/fish_chain.png", drawn.png)?;
+    file::write("out/fish_chain.svg", drawn.svg)?;
+    file::write("out/fish_chain.png", drawn.png)?;
     println!("drawn to out/fish_chain.svg and out/fish_chain.png");
     Ok(())
 }

@@ -108,6 +108,16 @@ impl Write for AtomicFile {
     }
 }
 
+/// Writes a whole file, as [`fs::write`] does, or leaves the old one as it was.
+///
+/// # Errors
+/// As [`AtomicFile::create`] and [`AtomicFile::finish`].
+pub fn write(path: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> Result<(), FileError> {
+    let mut file = AtomicFile::create(path.as_ref())?;
+    file.write_all(contents.as_ref())?;
+    file.finish()
+}
+
 /// Whether two paths lead to one file.
 pub fn is_same(a: &Path, b: &Path) -> bool {
     matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)

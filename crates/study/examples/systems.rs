@@ -142,8 +142,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", table::wrong(&top, plan)?);
     fs::create_dir_all("out")?;
     let drawn = picture::figure(&runs)?.render()?;
-    fs::write("out/systems.svg", drawn.svg)?;
-    fs::write("out/systems.png", drawn.png)?;
+    sim::file::write("out/systems.svg", drawn.svg)?;
+    sim::file::write("out/systems.png", drawn.png)?;
     println!("drawn to out/systems.svg and out/systems.png");
     Ok(())
 }
