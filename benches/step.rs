@@ -4,16 +4,17 @@
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use divan::{Bencher, black_box};
-use dvi::{
-    Context, ContinuousSystem, DiscreteLagrangian, Gauss, Integrator, State, System, Variational,
-};
+use dvi::{Context, ContinuousSystem, Gauss, Integrator, State, Variational};
 use lgvi::{articulated_fluid, dvi, lie};
-use lie::{LieGroup, Scalar};
+use lie::LieGroup;
 
 #[path = "../crates/articulated-fluid/tests/model/by_duals.rs"]
 mod by_duals;
+#[path = "../tests/fish/value_only.rs"]
+mod value_only;
 
 use by_duals::ByDuals;
+use value_only::ValueOnly;
 
 const H: f64 = 1e-3;
 /// Steps or evaluations in one measured call, so that the clock's own cost does not count.
@@ -62,27 +63,6 @@ fn step_x1000(bencher: Bencher) {
                 .expect("the paper's step is solved");
         }
     });
-}
-
-/// (22) without its derivatives (29)–(33).
-struct ValueOnly(ArticulatedBody);
-
-impl System for ValueOnly {
-    type Group = Configuration;
-}
-
-impl DiscreteLagrangian for ValueOnly {
-    type Workspace<S: Scalar> = ();
-
-    fn value<S: Scalar>(
-        &self,
-        at: Context<S>,
-        g: &Configuration<S>,
-        f: &Configuration<S>,
-        h: S,
-    ) -> S {
-        DiscreteLagrangian::value(&self.0, at, g, f, h)
-    }
 }
 
 /// 1000 steps from the value alone: derivatives and Newton matrix from dual numbers.

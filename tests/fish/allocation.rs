@@ -7,7 +7,8 @@ use lgvi::sim::Method;
 use lgvi::{articulated_fluid, dvi};
 
 use crate::by_duals::ByDuals;
-use crate::common::{ValueOnly, paper};
+use crate::common::paper;
+use crate::value_only::ValueOnly;
 
 fn allocations<I: Integrator>(mut integrator: I, mut state: State<I::Group>) -> u64 {
     integrator.step(&mut state, 1e-3).unwrap();

@@ -1,40 +1,15 @@
 //! The paper's scene, its motion by an independent method, and how far two states are apart.
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
-use dvi::{Context, DiscreteLagrangian, Integrator, State, System};
+use dvi::{Integrator, State};
 use lgvi::{articulated_fluid, dvi, lie};
-use lie::{LieGroup, SO3, Scalar};
+use lie::{LieGroup, SO3};
 use study::baseline::{Motion, Pair, Tolerance};
 
 pub fn paper() -> (ArticulatedBody, State<Configuration>) {
     let text = include_str!("../../scenes/fish-chain.toml");
     let scene = Scene::parse(text, "fish-chain.toml").unwrap();
     (scene.model().unwrap(), scene.initial_state().unwrap())
-}
-
-/// (22) without its derivatives (29)–(33).
-pub struct ValueOnly(pub ArticulatedBody);
-
-impl System for ValueOnly {
-    type Group = Configuration;
-}
-
-impl DiscreteLagrangian for ValueOnly {
-    type Workspace<S: Scalar> = ();
-
-    fn value<S: Scalar>(
-        &self,
-        at: Context<S>,
-        g: &Configuration<S>,
-        f: &Configuration<S>,
-        h: S,
-    ) -> S {
-        DiscreteLagrangian::value(&self.0, at, g, f, h)
-    }
-
-    fn is_defined(&self, _: f64, _: &Configuration) -> bool {
-        true
-    }
 }
 
 /// The paper's scene by an explicit method of order 8 at a tight tolerance.

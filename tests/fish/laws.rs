@@ -8,8 +8,9 @@ use dvi::{
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::{AlgebraOver, DualOver, LieGroup, Power, R3, SO3, Scalar, Vec3, VectorSpace};
 
-use crate::common::{self, ValueOnly, attitude_error, paper};
+use crate::common::{self, attitude_error, paper};
 use crate::on_se3::OnSe3;
+use crate::value_only::ValueOnly;
 
 const H: f64 = 1e-3;
 

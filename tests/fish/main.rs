@@ -11,3 +11,4 @@ mod laws;
 #[path = "../../crates/articulated-fluid/tests/model/on_se3.rs"]
 mod on_se3;
 mod paper;
+mod value_only;

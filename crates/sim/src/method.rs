@@ -225,20 +225,31 @@ impl Method {
     }
 
     fn make<M: Model>(self, model: M, in_full: bool) -> BoxedIntegrator<M::Group> {
-        let order = self.order();
         match self.family() {
-            Family::Variational if in_full => Box::new(Variational::new(model).with_all_unknowns()),
-            Family::Variational => Box::new(Variational::new(model)),
-            Family::Adjoint if in_full => {
-                Box::new(Variational::new(Adjoint(model)).with_all_unknowns())
+            Family::Variational => {
+                let made = Variational::new(model);
+                Box::new(if in_full {
+                    made.with_all_unknowns()
+                } else {
+                    made
+                })
             }
-            Family::Adjoint => Box::new(Variational::new(Adjoint(model))),
+            Family::Adjoint => {
+                let made = Variational::new(Adjoint(model));
+                Box::new(if in_full {
+                    made.with_all_unknowns()
+                } else {
+                    made
+                })
+            }
             Family::Composition { .. } => {
-                let made = Composition::with_order(model, order).expect("an order of the table");
-                match in_full {
-                    true => Box::new(made.with_all_unknowns()),
-                    false => Box::new(made),
-                }
+                let made = Composition::with_order(model, self.order());
+                let made = made.expect("an order of the table");
+                Box::new(if in_full {
+                    made.with_all_unknowns()
+                } else {
+                    made
+                })
             }
             Family::Gauss { stages } => {
                 let made = Gauss::with_stages(model, stages as usize);

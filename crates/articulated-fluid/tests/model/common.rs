@@ -3,7 +3,9 @@
 use core::ops::Range;
 
 use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
-use dvi::{Context, ContinuousSystem, Derivatives, DiscreteLagrangian, Lagrangian, State};
+use dvi::{
+    Context, ContinuousSystem, Derivatives, DiscreteLagrangian, Integrator, Lagrangian, State,
+};
 use lie::{
     AlgebraOver, DualOver, JET_DIRECTIONS, Jet, LieGroup, Mat3, Power, RealGroup, SO3, Scalar,
     Tangent, Vec3, VectorSpace,
@@ -617,4 +619,17 @@ pub fn assert_close(a: &[f64], b: &[f64], tolerance: f64) {
     let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
     let worst = largest(&difference);
     assert!(worst <= tolerance, "{worst:e} > {tolerance:e}: {a:?} {b:?}");
+}
+
+/// The state after so many steps of `h` seconds.
+pub fn run(
+    mut integrator: impl Integrator<Group = Configuration>,
+    start: &State<Configuration>,
+    (h, steps): (f64, u32),
+) -> State<Configuration> {
+    let mut state = start.clone();
+    for _ in 0..steps {
+        integrator.step(&mut state, h).expect("a step");
+    }
+    state
 }

@@ -54,19 +54,6 @@ fn braked(
     Forced::new(model.clone(), Discretised::new(Brakes::on(model), rule))
 }
 
-/// The state after so many steps.
-fn run(
-    mut integrator: impl Integrator<Group = Configuration>,
-    start: &State<Configuration>,
-    (h, steps): (f64, u32),
-) -> State<Configuration> {
-    let mut state = start.clone();
-    for _ in 0..steps {
-        integrator.step(&mut state, h).expect("a step");
-    }
-    state
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(16))]
 

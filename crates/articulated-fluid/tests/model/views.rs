@@ -61,19 +61,6 @@ fn there_and_back<V: View>(
     (inner, back)
 }
 
-/// The state after `steps` steps.
-fn run(
-    mut integrator: impl Integrator<Group = Configuration>,
-    start: &State<Configuration>,
-    (h, steps): (f64, usize),
-) -> State<Configuration> {
-    let mut state = start.clone();
-    for _ in 0..steps {
-        integrator.step(&mut state, h).expect("a step");
-    }
-    state
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
@@ -196,7 +183,7 @@ fn the_root_matters_to_the_first_order_by_its_error() {
     let model = ArticulatedBody::new(&[body(1.0), body(3.0)], &[joint]).expect("a model");
     let start = spinning(&model, [0.1, 0.2, 0.0]);
     let view = Rerooted::new(&model).expect("a heavier body");
-    let apart = |steps: usize| {
+    let apart = |steps: u32| {
         let steps = (1.0 / steps as f64, steps);
         let raw = run(Variational::new(model.clone()), &start, steps);
         let viewed = Viewed::new(view.clone(), Variational::new(view.model()));

@@ -157,7 +157,7 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
     }
 
     fn try_to_solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, Cause> {
-        check_step(&self.system, state, h)?;
+        check_step(&self.system, (state.t, &state.g), h)?;
         let (system, tableau) = (&self.system, self.tableau);
         let degenerate = || system.without_inertia(state.t, &state.g);
         let work = match self.work.take() {

@@ -32,12 +32,12 @@ impl<S: Scalar> Elimination<S> {
         self.entries[row * self.n + column] = value;
     }
 
-    /// Factorises a matrix from a vector space to its dual: its diagonal tells the units of the rows that pivots are chosen from.
     /// A row, before the matrix is factorised.
     pub(crate) fn row(&self, i: usize) -> &[S] {
         &self.entries[i * self.n..][..self.n]
     }
 
+    /// Factorises a matrix from a vector space to its dual: its diagonal tells the units of the rows that pivots are chosen from.
     pub(crate) fn factorise(&mut self) {
         let n = self.n;
         for (i, unit) in self.units.iter_mut().enumerate() {

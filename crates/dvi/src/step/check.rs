@@ -5,12 +5,11 @@ use lie::{LieGroup, RealGroup, VectorSpace};
 use super::Cause;
 use crate::{State, System};
 
-/// Whether a step of size `h` from this state makes sense at all; for integrators of your own.
+/// Whether a step of `h` seconds from the time `t` and the configuration `g` makes sense at all; for integrators of your own.
 ///
 /// # Errors
 /// The [`Cause`] that it does not.
-pub fn check_step<C: System>(system: &C, state: &State<C::Group>, h: f64) -> Result<(), Cause> {
-    let State { t, g, .. } = state;
+pub fn check_step<C: System>(system: &C, (t, g): (f64, &C::Group), h: f64) -> Result<(), Cause> {
     if !(h.is_finite() && h != 0.0) {
         Err(Cause::InvalidStep)
     } else if !system.fits(g) {

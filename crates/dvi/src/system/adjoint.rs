@@ -43,7 +43,7 @@ struct Ends<G: RealGroup, S: Scalar> {
     momentum: DualOver<G, S>,
 }
 
-/// That of the other, and for its step.
+/// Storage of an [`Adjoint`]: that of the other, and for the step seen from its end.
 pub struct AdjointWorkspace<L: DiscreteLagrangian, S: Scalar> {
     other: L::Workspace<S>,
     ends: Option<Ends<L::Group, S>>,

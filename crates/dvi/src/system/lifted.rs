@@ -20,7 +20,7 @@ type Arguments<'a, G, S> = (
 pub(crate) struct Lifted<G: RealGroup, S: Scalar> {
     t: S::Jet,
     h: S::Jet,
-    pub(crate) parameters: Vec<S::Jet>,
+    parameters: Vec<S::Jet>,
     g: Moved<G, S>,
     f: Moved<G, S>,
     zeta: AlgebraOver<G, S::Jet>,

@@ -136,14 +136,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
 
     /// The state at the end of a pair.
     fn end_of(&self, Pair { t, h, g, f }: &Pair<L::Group>) -> Result<State<L::Group>, Cause> {
+        check_step(&self.lagrangian, (*t, g), *h)?;
         let mut next = State {
             t: t + h,
-            g: g.clone(),
-            mu: g.zero_dual(),
+            g: g.compose(f),
+            mu: legendre_plus(&self.lagrangian, *t, g, f, *h),
         };
-        check_step(&self.lagrangian, &next, *h)?;
-        next.mu = legendre_plus(&self.lagrangian, *t, g, f, *h);
-        next.g = g.compose(f);
         if self.normalizes() {
             next.g.normalize();
         }
@@ -214,7 +212,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
 
     /// From the extrapolated guess, and from no displacement where that leads nowhere or astray.
     fn try_to_solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, Cause> {
-        check_step(&self.lagrangian, state, h)?;
+        check_step(&self.lagrangian, (state.t, &state.g), h)?;
         let fits = |work: &Work<L>| work.next.same_shape(&state.g);
         if !self.work.as_ref().is_some_and(fits) {
             self.work = None;

@@ -138,7 +138,7 @@ impl<S: ContinuousSystem> Integrator for GroupRungeKutta<S> {
     fn step(&mut self, state: &mut State<S::Group>, h: f64) -> Result<StepReport, StepError> {
         let at = (self.steps, state.t, h);
         let refused = |cause: Cause| cause.at(at);
-        check_step(&self.system, state, h).map_err(refused)?;
+        check_step(&self.system, (state.t, &state.g), h).map_err(refused)?;
         let storage = match self.storage.take() {
             Some(storage) if storage.end.g.same_shape(&state.g) => storage,
             _ => Storage::new(state),

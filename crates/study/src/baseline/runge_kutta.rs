@@ -73,7 +73,7 @@ impl Integrator for RungeKutta {
     fn step(&mut self, state: &mut State<Configuration>, h: f64) -> Result<StepReport, StepError> {
         let at = (self.steps, state.t, h);
         let refused = |cause: Cause| cause.at(at);
-        check_step(&self.model, state, h).map_err(refused)?;
+        check_step(&self.model, (state.t, &state.g), h).map_err(refused)?;
         check_momentum(&state.mu, self.rates.momentum()).map_err(refused)?;
         let Self {
             tableau,

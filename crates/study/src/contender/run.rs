@@ -4,10 +4,10 @@ use std::time::Instant;
 
 use articulated_fluid::Configuration;
 use dvi::{Pilot, State};
+use sim::{BoxedIntegrator, Clock, Due};
 
 use super::{Contender, Cost, Failure, Problem, Setting};
 use crate::baseline::{Motion, Tolerance};
-use sim::BoxedIntegrator;
 
 impl Contender {
     /// The integrator of a contender that takes steps of one size; `None` of any other.
@@ -50,8 +50,9 @@ impl Contender {
         Ok(Cost { time, ..run.cost() })
     }
 
-    /// The states at $k T / n$ for $k = 0, \dots, n$, $T$ the end and $n$ = `samples`; the steps are those of [`run`](Self::run), and what
-    /// lies inside a step is a shorter step of the method, not interpolated.
+    /// The states at $k T / n$ for $k = 0, \dots, n$, with the end $T$ and $n$ = `samples`.
+    ///
+    /// The steps are those of [`run`](Self::run). A sample inside a step is a shorter step of the method, not interpolated.
     ///
     /// # Errors
     /// [`Failure`].
@@ -128,12 +129,8 @@ impl<'a> Run<'a> {
 
 /// Steps of one size.
 struct Walk<'a> {
-    integrator: BoxedIntegrator<Configuration>,
+    run: sim::Run<BoxedIntegrator<Configuration>>,
     problem: &'a Problem,
-    state: State<Configuration>,
-    steps: u64,
-    done: u64,
-    iterations: u64,
     /// In a step, and in an iteration of its solver.
     evaluations: [u64; 2],
 }
@@ -144,44 +141,37 @@ impl<'a> Walk<'a> {
         steps: u64,
         (integrator, evaluations): (BoxedIntegrator<Configuration>, [u64; 2]),
     ) -> Self {
+        let clock = Clock::counted(steps, problem.until / steps as f64);
         Self {
-            integrator,
+            run: sim::Run::new(integrator, problem.start.clone(), clock),
             problem,
-            state: problem.start.clone(),
-            steps,
-            done: 0,
-            iterations: 0,
             evaluations,
         }
     }
 
     fn at(&mut self, k: u64, n: u64) -> Result<State<Configuration>, Failure> {
+        let clock = self.run.clock();
         // In integers, so that a sample at a step's end is that step's.
-        let position = u128::from(k) * u128::from(self.steps);
+        let position = u128::from(k) * u128::from(clock.steps());
         let (whole, rest) = (position / u128::from(n), position % u128::from(n));
-        let h = self.problem.until / self.steps as f64;
-        while u128::from(self.done) < whole {
-            let report = self.integrator.step(&mut self.state, h)?;
-            self.iterations += u64::from(report.iterations);
-            self.done += 1;
-        }
-        let mut state = match rest {
-            0 => self.state.clone(),
-            rest => {
-                let ahead = h * rest as f64 / n as f64;
-                self.integrator.peek(&self.state, ahead)?
-            }
+        let due = Due {
+            steps: whole as u64,
+            ahead: clock.step() * rest as f64 / n as f64,
+            t: self.problem.time(k, n),
         };
-        state.t = self.problem.time(k, n);
-        Ok(state)
+        self.run.advance(due.steps)?;
+        Ok(self.run.look(&due)?)
     }
 
     fn cost(&self) -> Cost {
         let [in_step, in_iteration] = self.evaluations;
+        let sim::Cost {
+            steps, iterations, ..
+        } = *self.run.cost();
         Cost {
-            steps: self.done,
-            evaluations: self.done * in_step + self.iterations * in_iteration,
-            iterations: self.iterations,
+            steps,
+            evaluations: steps * in_step + iterations * in_iteration,
+            iterations,
             ..Cost::default()
         }
     }
