@@ -157,10 +157,9 @@ impl Scene {
                 rounded(plane.normal())
             ),
             Err(refused) => {
-                let k = refused.body;
-                let body = found.root.map_or(k, |root| root.listed(k));
-                let name = format!("({:?})", self.bodies[body].name);
-                refused.to_string().replace(&format!("(body {k})"), &name)
+                let listed = |root: &Rerooted| root.listed(refused.body);
+                let body = found.root.map_or(refused.body, listed);
+                refused.of(format_args!("{:?}", self.bodies[body].name))
             }
         };
         Reduction {

@@ -33,22 +33,27 @@ pub(crate) fn rounded(direction: Vec3) -> String {
 
 impl Display for NotPlanar {
     fn fmt(&self, f: &mut Formatter) -> Result {
+        f.write_str(&self.of(format_args!("body {}", self.body)))
+    }
+}
+
+impl NotPlanar {
+    /// The message, in which the body is called so.
+    pub(crate) fn of(&self, body: impl Display) -> String {
         let Self {
             defect,
             what,
-            body,
             torque,
             force,
-            normal,
+            ..
         } = self;
         let of = match what {
-            NotPlanarCause::State => return write!(f, "no motion in a coordinate plane: {what}"),
+            NotPlanarCause::State => return format!("no motion in a coordinate plane: {what}"),
             NotPlanarCause::VelocityOffPlane | NotPlanarCause::GravityOffPlane => String::new(),
-            _ => format!(" (body {body})"),
+            _ => format!(" ({body})"),
         };
-        let normal = rounded(*normal);
-        write!(
-            f,
+        let normal = rounded(self.normal);
+        format!(
             "no motion in a coordinate plane; best candidate: normal {normal}. But {what}{of}, by {defect:.1e} of the largest of its kind; the momenta leave the plane at {torque:.1e} N m and {force:.1e} N"
         )
     }

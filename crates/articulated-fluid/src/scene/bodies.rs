@@ -2,84 +2,59 @@
 
 use std::collections::HashMap;
 
-use toml::Spanned;
-
 use super::description::SceneBody;
+use super::entry::{Table, Value};
 use super::error::SceneError;
-use super::forms::{self, Inertial, Surroundings};
-use super::raw::{Node, RawBody};
-use super::source::Source;
-use super::values::attitude;
+use super::forms::{self, Surroundings};
 
-/// The names of the bodies, with the place of each.
+/// A name of a body, and its place.
+pub(super) struct Name<'a> {
+    pub text: &'a str,
+    pub value: Value<'a>,
+}
+
+/// The names of the bodies.
 #[derive(Default)]
-pub(super) struct Names<'r> {
+pub(super) struct Names<'a> {
     /// In the order of the bodies.
-    pub listed: Vec<&'r Spanned<String>>,
+    pub listed: Vec<Name<'a>>,
     /// The bodies by their names.
-    pub index: HashMap<&'r str, usize>,
+    pub index: HashMap<&'a str, usize>,
 }
 
 /// The bodies, still at rest, and their names.
-pub(super) fn check<'r>(
-    raw: &'r [Node<RawBody>],
+pub(super) fn check<'a>(
+    tables: &[Table<'a>],
     around: &Surroundings,
-    source: &Source,
-) -> Result<(Names<'r>, Vec<SceneBody>), SceneError> {
-    if raw.is_empty() {
-        return Err(source.absent("body"));
-    }
+) -> Result<(Names<'a>, Vec<SceneBody>), SceneError> {
     let mut names = Names::default();
-    let mut bodies = Vec::with_capacity(raw.len());
-    for node in raw {
-        let name = name(node, &names, source)?;
-        bodies.push(body(node, name.get_ref(), around, source)?);
-        names.index.insert(name.get_ref(), names.listed.len());
+    let mut bodies = Vec::with_capacity(tables.len());
+    for table in tables {
+        let name = name(table, &names)?;
+        let table = table.clone().of_body(name.text);
+        let body = forms::check(&table, name.text, around)?;
+        bodies.push(SceneBody {
+            attitude: table.read("attitude", body.attitude, Value::attitude)?,
+            ..body
+        });
+        names.index.insert(name.text, names.listed.len());
         names.listed.push(name);
     }
     Ok((names, bodies))
 }
 
-fn name<'r>(
-    node: &'r Node<RawBody>,
-    earlier: &Names,
-    source: &Source,
-) -> Result<&'r Spanned<String>, SceneError> {
-    let name = source.require(node, "name", &node.get_ref().0.name)?;
-    let text = name.get_ref();
+fn name<'a>(table: &Table<'a>, earlier: &Names) -> Result<Name<'a>, SceneError> {
+    let value = table.require("name")?;
+    let text = value.text()?;
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if text.is_empty() || !text.chars().all(allowed) {
-        return Err(source.wrong(name.span(), &format!("is {text:?}")));
+        return Err(value.wrong(&format!("is {text:?}")));
     }
-    match earlier.index.get(text.as_str()) {
+    match earlier.index.get(text) {
         Some(other) => {
-            let line = source.line(earlier.listed[*other].span());
-            let what = format!("{text:?} is the body in line {line}");
-            Err(source.wrong(name.span(), &what))
+            let line = earlier.listed[*other].value.line();
+            Err(value.wrong(&format!("{text:?} is the body in line {line}")))
         }
-        None => Ok(name),
+        None => Ok(Name { text, value }),
     }
-}
-
-fn body(
-    node: &Node<RawBody>,
-    name: &str,
-    around: &Surroundings,
-    source: &Source,
-) -> Result<SceneBody, SceneError> {
-    let Inertial {
-        semi_axes,
-        total_mass,
-        total_inertia,
-        net_mass,
-    } = forms::check(node, around, source)?;
-    Ok(SceneBody {
-        name: name.to_owned(),
-        semi_axes,
-        total_mass,
-        total_inertia,
-        net_mass,
-        attitude: attitude(&node.get_ref().0.attitude, source)?,
-        angular_velocity: [0.0; 3],
-    })
 }

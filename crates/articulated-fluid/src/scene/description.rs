@@ -1,6 +1,12 @@
 //! What a scene is once it is read.
 
+use lie::Mat3;
+
 use super::note::Note;
+use crate::ellipsoid::Ellipsoid;
+
+/// A difference of mass and displaced mass that is the rounding of density times volume and of the numbers read, relative.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A scene that has been checked: every number is finite and every joint leads to a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,8 +43,8 @@ pub enum StartVelocity {
 pub struct SceneBody {
     /// Name: unique in the scene, made of ASCII letters, digits, `-` and `_`.
     pub name: String,
-    /// Semi-axes along the body's $x, y, z$, m, of the ellipsoid that the body is, or that it is given as its shape.
-    pub semi_axes: Option<[f64; 3]>,
+    /// What the body is, as far as the file tells.
+    pub form: Form,
     /// Mass of the body plus added mass in the body frame, kg: symmetric, positive definite.
     pub total_mass: [[f64; 3]; 3],
     /// Inertia of the body plus added inertia about its mass centre in the body frame, kg m²:
@@ -50,6 +56,80 @@ pub struct SceneBody {
     pub attitude: [f64; 4],
     /// Initial angular velocity in the body frame, rad/s.
     pub angular_velocity: [f64; 3],
+}
+
+impl SceneBody {
+    /// A uniform ellipsoid of this mass, kg, in a fluid of this density, kg/m³: at rest, and aligned with the reference frame.
+    pub fn ellipsoid(name: &str, shape: &Ellipsoid, mass: f64, density: f64) -> Self {
+        let (added, wet) = (shape.added_mass(density), shape.added_inertia(density));
+        let dry = shape.dry_inertia(mass);
+        Self {
+            name: name.to_owned(),
+            form: Form::Ellipsoid {
+                semi_axes: shape.semi_axes(),
+                mass,
+            },
+            total_mass: Mat3::diagonal(added.map(|added| mass + added)).0,
+            total_inertia: Mat3::diagonal([0, 1, 2].map(|i| dry[i] + wet[i])).0,
+            net_mass: net_mass(mass, shape.neutral_mass(density)),
+            attitude: [1.0, 0.0, 0.0, 0.0],
+            angular_velocity: [0.0; 3],
+        }
+    }
+
+    /// A body of these totals, as [`total_mass`](Self::total_mass), [`total_inertia`](Self::total_inertia) and
+    /// [`net_mass`](Self::net_mass): at rest, and aligned with the reference frame.
+    pub fn given(
+        name: &str,
+        shape: Option<Ellipsoid>,
+        [total_mass, total_inertia]: [[[f64; 3]; 3]; 2],
+        net_mass: f64,
+    ) -> Self {
+        Self {
+            name: name.to_owned(),
+            form: Form::Given {
+                shape: shape.map(|shape| shape.semi_axes()),
+            },
+            total_mass,
+            total_inertia,
+            net_mass,
+            attitude: [1.0, 0.0, 0.0, 0.0],
+            angular_velocity: [0.0; 3],
+        }
+    }
+
+    /// Semi-axes along the body's $x, y, z$, m, of the ellipsoid that the body is, or that it is given as its shape.
+    pub fn semi_axes(&self) -> Option<[f64; 3]> {
+        match self.form {
+            Form::Ellipsoid { semi_axes, .. } => Some(semi_axes),
+            Form::Given { shape } => shape,
+        }
+    }
+}
+
+/// The mass less the displaced one: zero where both are equal as the decimal numbers of the file are.
+pub(super) fn net_mass(mass: f64, displaced: f64) -> f64 {
+    match mass - displaced {
+        net if net.abs() <= ROUNDING * mass => 0.0,
+        net => net,
+    }
+}
+
+/// What a body of a [`Scene`] is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// A uniform ellipsoid: mass and inertia, its own and the added ones, follow.
+    Ellipsoid {
+        /// Semi-axes along the body's $x, y, z$, m.
+        semi_axes: [f64; 3],
+        /// The body's own mass, kg.
+        mass: f64,
+    },
+    /// A body of any shape, whose mass and inertia are given.
+    Given {
+        /// The semi-axes, m, of the ellipsoid that it is given as its shape, if any.
+        shape: Option<[f64; 3]>,
+    },
 }
 
 /// A ball joint of a [`Scene`].

@@ -238,3 +238,13 @@ pub(super) fn expected(path: &str) -> Option<&'static str> {
         .find(|key| key.path == path)
         .map(|key| key.value)
 }
+
+/// The names of the keys in the table at `path`.
+pub(super) fn below(path: &str) -> impl Iterator<Item = &'static str> {
+    let name = move |key: &'static Key| match (path, key.path.rsplit_once('.')) {
+        ("", None) => Some(key.path),
+        (_, Some((table, name))) if table == path => Some(name),
+        _ => None,
+    };
+    KEYS.iter().filter_map(name)
+}

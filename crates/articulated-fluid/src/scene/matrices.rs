@@ -1,12 +1,11 @@
 //! Symmetric matrices: positive definite, semidefinite, and inertias of rigid bodies.
 
-use toml::Spanned;
+use lie::Mat3;
 
+use super::entry::Value;
 use super::error::SceneError;
 use super::note::{Correction, PUBLISHED, ROUNDING};
-use super::raw::Entry;
-use super::source::Source;
-use super::values::{elements, finite};
+use super::values::{finite, has_elements};
 
 /// Rows.
 pub(super) type Matrix = [[f64; 3]; 3];
@@ -17,30 +16,48 @@ const DEFINITE: f64 = 8.0 * f64::EPSILON;
 /// How far below zero an eigenvalue may be, relative to the matrix.
 const SEMIDEFINITE: f64 = 1e-12;
 
-/// A symmetric positive definite matrix, given as such or by its diagonal.
-pub(super) fn definite(field: &Spanned<Vec<Entry>>, source: &Source) -> Result<Matrix, SceneError> {
-    let matrix = symmetric(field, |x| x > 0.0, source)?;
-    positive_definite(matrix).map_err(|what| source.wrong(field.span(), &what))
-}
+impl Value<'_> {
+    /// A symmetric positive definite matrix, given as such or by its diagonal.
+    pub fn definite(&self) -> Result<Matrix, SceneError> {
+        let matrix = self.symmetric(|x| x > 0.0)?;
+        positive_definite(matrix).map_err(|what| self.wrong(&what))
+    }
 
-/// A symmetric positive semidefinite matrix, given as such or by its diagonal; zero if the key is missing.
-pub(super) fn semidefinite(
-    field: Option<&Spanned<Vec<Entry>>>,
-    source: &Source,
-) -> Result<Matrix, SceneError> {
-    let Some(field) = field else {
-        return Ok(diagonal([0.0; 3]));
-    };
-    let matrix = symmetric(field, |x| x >= 0.0, source)?;
-    match is_semidefinite(matrix) {
-        true => Ok(matrix),
-        false => Err(source.wrong(field.span(), "not positive semidefinite")),
+    /// A symmetric positive semidefinite matrix, given as such or by its diagonal.
+    pub fn semidefinite(&self) -> Result<Matrix, SceneError> {
+        let matrix = self.symmetric(|x| x >= 0.0)?;
+        match is_semidefinite(matrix) {
+            true => Ok(matrix),
+            false => Err(self.wrong("not positive semidefinite")),
+        }
+    }
+
+    /// A matrix that is symmetric up to the digits of published numbers, made exactly so; the scene notes by how much it was not.
+    fn symmetric(&self, on_diagonal: fn(f64) -> bool) -> Result<Matrix, SceneError> {
+        let elements = self.elements()?;
+        let elements: Result<Vec<_>, _> = elements.iter().map(element).collect();
+        let elements = elements.map_err(|_| self.wrong("wrong type"))?;
+        let (matrix, off) = matrix(&elements, on_diagonal)
+            .and_then(symmetric_part)
+            .map_err(|what| self.wrong(&what))?;
+        if off > ROUNDING {
+            self.note(Correction::Symmetrised, off);
+        }
+        Ok(matrix)
     }
 }
 
-/// The matrix with this diagonal.
-pub(super) fn diagonal([x, y, z]: [f64; 3]) -> Matrix {
-    [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]
+/// An element of a diagonal, or a row of a matrix.
+enum Element {
+    Number(f64),
+    Row(Vec<f64>),
+}
+
+fn element(value: &Value) -> Result<Element, SceneError> {
+    match value.is_array() {
+        true => value.numbers().map(Element::Row),
+        false => value.number().map(Element::Number),
+    }
 }
 
 /// The sum, if it is finite and positive definite.
@@ -57,39 +74,24 @@ pub(super) fn is_of_a_rigid_body(inertia: Matrix) -> bool {
     is_semidefinite([0, 1, 2].map(|i| [0, 1, 2].map(|j| at(i, j))))
 }
 
-fn matrix(entries: &[Entry], on_diagonal: fn(f64) -> bool) -> Result<Matrix, String> {
-    match entries {
-        [Entry::Number(x), Entry::Number(y), Entry::Number(z)] => {
+fn matrix(elements: &[Element], on_diagonal: fn(f64) -> bool) -> Result<Matrix, String> {
+    match elements {
+        [Element::Number(x), Element::Number(y), Element::Number(z)] => {
             let values = finite(&[*x, *y, *z])?;
             match values.iter().position(|value| !on_diagonal(*value)) {
                 Some(index) => Err(format!("element {} is {:?}", index + 1, values[index])),
-                None => Ok(diagonal(values)),
+                None => Ok(Mat3::diagonal(values).0),
             }
         }
-        [Entry::Row(x), Entry::Row(y), Entry::Row(z)] => {
+        [Element::Row(x), Element::Row(y), Element::Row(z)] => {
             let row = |index: usize, row: &[f64]| {
                 finite(row).map_err(|what| format!("row {index} {what}"))
             };
             Ok([row(1, x)?, row(2, y)?, row(3, z)?])
         }
         [_, _, _] => Err("mixes numbers and rows".to_owned()),
-        _ => Err(elements(entries.len())),
+        _ => Err(has_elements(elements.len())),
     }
-}
-
-/// A matrix that is symmetric up to the digits of published numbers, made exactly so; the scene notes by how much it was not.
-fn symmetric(
-    field: &Spanned<Vec<Entry>>,
-    on_diagonal: fn(f64) -> bool,
-    source: &Source,
-) -> Result<Matrix, SceneError> {
-    let (matrix, off) = matrix(field.get_ref(), on_diagonal)
-        .and_then(symmetric_part)
-        .map_err(|what| source.wrong(field.span(), &what))?;
-    if off > ROUNDING {
-        source.note(field.span(), Correction::Symmetrised, off);
-    }
-    Ok(matrix)
 }
 
 /// The symmetric part, and how far from it the matrix is relative to its largest element.

@@ -20,6 +20,7 @@
 
 mod bodies;
 mod description;
+mod entry;
 mod error;
 mod forms;
 mod joints;
@@ -28,20 +29,19 @@ mod matrices;
 mod note;
 mod overlap;
 mod rates;
-mod raw;
 mod source;
 mod values;
 
 use std::path::Path;
 
-pub use description::{Scene, SceneBody, SceneJoint, StartVelocity};
+pub use description::{Form, Scene, SceneBody, SceneJoint, StartVelocity};
 pub use error::SceneError;
 pub use keys::{KEYS, Key, reference};
 pub use note::{Correction, Note};
 pub use overlap::Overlap;
 
+use entry::{Table, Value};
 use forms::Surroundings;
-use raw::{RawScene, RawStart};
 use source::Source;
 
 /// A scene file with every key, as shown in the documentation of this module.
@@ -73,28 +73,11 @@ impl Scene {
     /// [`SceneError::Invalid`] for the first thing wrong: TOML syntax, an unknown or missing key,
     /// a value of the wrong type or size, not finite or out of range, joints that make no tree.
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
-        let source = Source::new(text, file)?;
-        let raw: RawScene = source.read()?;
-        let density = density(&raw, &source)?;
-        let gravity = values::triple_or_zero(raw.gravity.as_ref(), &source)?;
-        let around = Surroundings {
-            density,
-            gravity: gravity != [0.0; 3],
-        };
-        let (names, mut bodies) = bodies::check(&raw.body, &around, &source)?;
-        let joints = joints::check(&raw.joint, &names, &source)?;
-        rates::set(&raw.body, &joints, &mut bodies, &source)?;
-        let (position, velocity) = start(raw.start.as_ref().map(|s| &s.get_ref().0), &source)?;
-        Ok(Self {
-            title: raw.title,
-            gravity,
-            density,
-            bodies,
-            joints,
-            position,
-            velocity,
-            notes: source.into_notes(),
-        })
+        let source = Source::new(text, file);
+        let tree = source.parse()?;
+        let scene = read(&Table::root(&source, tree.get_ref())?)?;
+        let notes = source.into_notes();
+        Ok(Self { notes, ..scene })
     }
 
     /// Reads the scene in the file `path`.
@@ -111,18 +94,47 @@ impl Scene {
     }
 }
 
-fn density(raw: &RawScene, source: &Source) -> Result<f64, SceneError> {
-    let fluid = raw.fluid.as_ref().ok_or_else(|| source.absent("fluid"))?;
-    let density = source.require(fluid, "density", &fluid.get_ref().0.density)?;
-    values::not_negative(density, source)
+/// All but the notes.
+fn read(root: &Table) -> Result<Scene, SceneError> {
+    let tables = root.read("body", vec![], Value::tables)?;
+    let joints = root.read("joint", vec![], Value::tables)?;
+    let start = root.read("start", None, |start| start.table().map(Some))?;
+    let fluid = root.require("fluid")?.table()?;
+
+    let title = root.read("title", None, |title| title.text().map(Some))?;
+    let density = fluid.require("density")?.not_negative()?;
+    let gravity = root.read("gravity", [0.0; 3], Value::array)?;
+    let around = Surroundings {
+        density,
+        gravity: gravity != [0.0; 3],
+    };
+    if tables.is_empty() {
+        return Err(root.missing("body"));
+    }
+    let (names, mut bodies) = bodies::check(&tables, &around)?;
+    let joints = joints::check(&joints, &names)?;
+    rates::set(&tables, &joints, &mut bodies)?;
+    let (mut position, mut velocity) = ([0.0; 3], StartVelocity::Given([0.0; 3]));
+    if let Some(start) = start {
+        position = start.read("position", position, Value::array)?;
+        velocity = start.read("velocity", velocity, start_velocity)?;
+    }
+    Ok(Scene {
+        title: title.map(str::to_owned),
+        gravity,
+        density,
+        bodies,
+        joints,
+        position,
+        velocity,
+        notes: vec![],
+    })
 }
 
-fn start(raw: Option<&RawStart>, source: &Source) -> Result<([f64; 3], StartVelocity), SceneError> {
-    match raw {
-        None => Ok(([0.0; 3], StartVelocity::Given([0.0; 3]))),
-        Some(start) => Ok((
-            values::triple_or_zero(start.position.as_ref(), source)?,
-            values::start_velocity(&start.velocity, source)?,
-        )),
+fn start_velocity(value: &Value) -> Result<StartVelocity, SceneError> {
+    match value.word() {
+        Some("zero-momentum") => Ok(StartVelocity::ZeroMomentum),
+        Some(word) => Err(value.unknown_word(word)),
+        None => value.array().map(StartVelocity::Given),
     }
 }

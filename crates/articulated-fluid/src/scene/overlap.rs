@@ -117,7 +117,7 @@ impl Scene {
 
 impl Placed {
     fn new(body: usize, scene_body: &SceneBody, (rotation, centre): (Mat3, Vec3)) -> Option<Self> {
-        let semi_axes = scene_body.semi_axes?;
+        let semi_axes = scene_body.semi_axes()?;
         centre.is_finite().then(|| Self {
             body,
             centre,

@@ -201,7 +201,7 @@ fn the_printed_fish_follows_from_its_semi_axes() {
     assert_eq!(printed.density, computed.density);
     for (printed, computed) in printed.bodies.iter().zip(&computed.bodies) {
         assert_eq!(printed.name, computed.name);
-        assert_eq!(printed.semi_axes, computed.semi_axes);
+        assert_eq!(printed.semi_axes(), computed.semi_axes());
         assert_eq!(printed.angular_velocity, computed.angular_velocity);
         for (table, value) in [
             (printed.total_mass, computed.total_mass),

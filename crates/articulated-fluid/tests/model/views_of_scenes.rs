@@ -1,6 +1,6 @@
 //! Scenes by their smallest models: what is left out is exactly nothing, and what is left depends on neither drift, fall nor order.
 
-use articulated_fluid::scene::{SceneBody, SceneJoint, StartVelocity};
+use articulated_fluid::scene::{Form, SceneBody, SceneJoint, StartVelocity};
 use articulated_fluid::{Configuration, Scene, Smallest};
 use dvi::{Composition, Gauss, Integrator, State, Variational};
 use lie::Vec3;
@@ -23,7 +23,7 @@ fn scene(sample: &Sample, velocity: StartVelocity) -> Scene {
         .enumerate()
         .map(|(i, (((body, r), rate), net_mass))| SceneBody {
             name: format!("body-{i}"),
-            semi_axes: None,
+            form: Form::Given { shape: None },
             total_mass: body.mass.0,
             total_inertia: body.inertia.0,
             net_mass,

@@ -9,7 +9,7 @@ fn the_totals_of_an_ellipsoid_are_its_own_and_the_added_inertia() {
     let scene = parse(GOOD);
     for (index, mass) in [(0, Some(90.0)), (2, None)] {
         let body = &scene.bodies[index];
-        let shape = Ellipsoid::new(body.semi_axes.expect("semi-axes")).expect("an ellipsoid");
+        let shape = Ellipsoid::new(body.semi_axes().expect("semi-axes")).expect("an ellipsoid");
         let mass = mass.unwrap_or(shape.neutral_mass(1000.0));
         let (dry, added) = (shape.dry_inertia(mass), shape.added_inertia(1000.0));
         let masses = shape.added_mass(1000.0).map(|added| mass + added);
@@ -84,7 +84,7 @@ fn an_explicit_body_is_the_sum_of_its_own_and_the_added_inertia() {
         body.total_inertia,
         [[2.0, 0.5, 0.0], [0.5, 2.0, 0.0], [0.0, 0.0, 5.5]]
     );
-    assert_eq!(body.semi_axes, None);
+    assert_eq!(body.semi_axes(), None);
     assert_eq!(body.net_mass, 1.0);
 }
 

@@ -80,10 +80,10 @@ fn every_key_is_read() {
         panic!("three bodies");
     };
     assert_eq!(head.name, "head");
-    assert_eq!(head.semi_axes, Some([0.8, 0.15, 0.2]));
+    assert_eq!(head.semi_axes(), Some([0.8, 0.15, 0.2]));
     assert_eq!(head.attitude, [0.0, 1.0, 0.0, 0.0]);
     assert_eq!(head.angular_velocity, [1.0, 2.0, 3.0]);
-    assert_eq!(tail_1.semi_axes, None);
+    assert_eq!(tail_1.semi_axes(), None);
     assert_eq!(diagonal(tail_1.total_mass), [1.0, 2.0, 3.0]);
     let inertia = [[2.0, 0.5, 0.0], [0.5, 2.0, 0.0], [0.0, 0.0, 1.0]];
     assert_eq!(tail_1.total_inertia, inertia);

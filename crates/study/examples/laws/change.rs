@@ -1,7 +1,7 @@
 //! What may be changed of a scene without a change of its motion.
 
 use articulated_fluid::Scene;
-use articulated_fluid::scene::{SceneJoint, StartVelocity};
+use articulated_fluid::scene::{Form, SceneJoint, StartVelocity};
 use lie::{LieGroup, SO3, Vec3};
 
 /// Factors of the units of length, mass and time.
@@ -27,7 +27,18 @@ impl Units {
         scene.position = scaled(scene.position, length);
         scene.velocity = velocity(&scene, |v| v * (length / time));
         for body in &mut scene.bodies {
-            body.semi_axes = body.semi_axes.map(|axes| scaled(axes, length));
+            body.form = match body.form {
+                Form::Ellipsoid {
+                    semi_axes,
+                    mass: own,
+                } => Form::Ellipsoid {
+                    semi_axes: scaled(semi_axes, length),
+                    mass: own * mass,
+                },
+                Form::Given { shape } => Form::Given {
+                    shape: shape.map(|axes| scaled(axes, length)),
+                },
+            };
             body.total_mass = body.total_mass.map(|row| scaled(row, mass));
             body.total_inertia = body.total_inertia.map(|row| scaled(row, inertia));
             body.net_mass *= mass;

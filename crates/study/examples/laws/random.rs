@@ -26,7 +26,7 @@ pub fn scene(seed: u64, case: u64) -> Scene {
     let bodies: Vec<SceneBody> = (0..count).map(|i| random.body(i, density)).collect();
     let joints = (1..count).map(|child| {
         let parent = random.0.random_range(0..child);
-        let reach = |body: &SceneBody| body.semi_axes.map_or(1.0, |axes| axes[0]);
+        let reach = |body: &SceneBody| body.semi_axes().map_or(1.0, |axes| axes[0]);
         SceneJoint {
             parent,
             child,
@@ -78,18 +78,11 @@ impl Random {
         } else {
             own
         };
-        let (dry, wet) = (shape.dry_inertia(mass), shape.added_inertia(density));
-        let added = shape.added_mass(density);
-        let diagonal = |x: [f64; 3]| [[x[0], 0.0, 0.0], [0.0, x[1], 0.0], [0.0, 0.0, x[2]]];
         let attitude: SO3 = SO3::exp(&Tangent(self.vector(1.7).0));
         SceneBody {
-            name: format!("body-{index}"),
-            semi_axes: Some(axes),
-            total_mass: diagonal([0, 1, 2].map(|i| mass + added[i])),
-            total_inertia: diagonal([0, 1, 2].map(|i| dry[i] + wet[i])),
-            net_mass: mass - shape.neutral_mass(density),
             attitude: attitude.to_quaternion(),
             angular_velocity: self.vector(1.0).0,
+            ..SceneBody::ellipsoid(&format!("body-{index}"), &shape, mass, density)
         }
     }
 }

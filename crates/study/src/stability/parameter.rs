@@ -5,15 +5,12 @@
 use core::fmt;
 use core::str::FromStr;
 
-use articulated_fluid::scene::{SceneBody, StartVelocity};
+use articulated_fluid::scene::{Form, SceneBody, StartVelocity};
 use articulated_fluid::{Ellipsoid, EllipsoidError, ModelError, Scene};
 use serde::Serialize;
 use thiserror::Error;
 
 use crate::contender::Problem;
-
-/// Masses and inertias this close to those of an ellipsoid, relative to the largest of them, are its own.
-const SAME: f64 = 1e-9;
 
 /// What of a scene is varied: all but the stiffness in multiples of the scene's own, where 1 is the scene as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -215,6 +212,10 @@ fn weigh(scene: &mut Scene, value: f64) {
         body.total_mass = scaled(body.total_mass);
         body.total_inertia = scaled(body.total_inertia);
         body.net_mass *= value;
+        // No longer that of its shape.
+        body.form = Form::Given {
+            shape: body.semi_axes(),
+        };
     }
 }
 
@@ -233,46 +234,30 @@ fn stretch(scene: &mut Scene, value: f64) -> Result<(), ParameterError> {
 
 /// Stretches a body along its longest axis, whose index is returned.
 fn stretch_body(body: &mut SceneBody, density: f64, value: f64) -> Result<usize, ParameterError> {
-    let (mut axes, mass) = ellipsoid(body, density).ok_or(ParameterError::NotAnEllipsoid {
-        body: body.name.clone(),
-    })?;
-    let longest = (0..3).max_by(|i, j| axes[*i].total_cmp(&axes[*j]));
+    let name = body.name.clone();
+    let Form::Ellipsoid {
+        mut semi_axes,
+        mass,
+    } = body.form
+    else {
+        return Err(ParameterError::NotAnEllipsoid { body: name });
+    };
+    let longest = (0..3).max_by(|i, j| semi_axes[*i].total_cmp(&semi_axes[*j]));
     let longest = longest.unwrap_or(0);
-    axes[longest] *= value;
-    let stretched = Ellipsoid::new(axes).map_err(|source| ParameterError::Ellipsoid {
-        body: body.name.clone(),
-        value,
-        source,
-    })?;
-    [body.total_mass, body.total_inertia] = totals(&stretched, density, value * mass);
-    body.semi_axes = Some(axes);
-    body.net_mass *= value;
-    Ok(longest)
-}
-
-/// The semi-axes and the own mass of a body that is a uniform ellipsoid in a fluid of this density.
-fn ellipsoid(body: &SceneBody, density: f64) -> Option<([f64; 3], f64)> {
-    let axes = body.semi_axes?;
-    let shape = Ellipsoid::new(axes).ok()?;
-    let mass = body.total_mass[0][0] - shape.added_mass(density)[0];
-    let given = [body.total_mass, body.total_inertia];
-    let same = totals(&shape, density, mass)
-        .iter()
-        .zip(&given)
-        .all(|(a, b)| is_same(a, b));
-    (same && mass > 0.0).then_some((axes, mass))
-}
-
-/// Mass and inertia, own and added, of a uniform ellipsoid of this own mass.
-fn totals(shape: &Ellipsoid, density: f64, mass: f64) -> [[[f64; 3]; 3]; 2] {
-    let masses = shape.added_mass(density).map(|added| mass + added);
-    let (own, added) = (shape.dry_inertia(mass), shape.added_inertia(density));
-    let inertias = [0, 1, 2].map(|i| own[i] + added[i]);
-    [masses, inertias].map(|[x, y, z]| [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]])
-}
-
-fn is_same(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> bool {
-    let entries = || a.as_flattened().iter().zip(b.as_flattened());
-    let largest = entries().fold(0.0, |m: f64, (a, b)| m.max(a.abs()).max(b.abs()));
-    entries().all(|(a, b)| (a - b).abs() <= SAME * largest)
+    semi_axes[longest] *= value;
+    match Ellipsoid::new(semi_axes) {
+        Ok(stretched) => {
+            *body = SceneBody {
+                attitude: body.attitude,
+                angular_velocity: body.angular_velocity,
+                ..SceneBody::ellipsoid(&name, &stretched, value * mass, density)
+            };
+            Ok(longest)
+        }
+        Err(source) => Err(ParameterError::Ellipsoid {
+            body: name,
+            value,
+            source,
+        }),
+    }
 }

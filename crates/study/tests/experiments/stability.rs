@@ -264,7 +264,7 @@ fn a_parameter_changes_what_it_says() {
     }
 
     let long = Parameter::Aspect.vary(&original, 2.0).unwrap();
-    assert_eq!(long.bodies[0].semi_axes, Some([16.0, 1.5, 2.0]));
+    assert_eq!(long.bodies[0].semi_axes(), Some([16.0, 1.5, 2.0]));
     assert_eq!(
         (long.joints[0].at_parent, long.joints[0].at_child),
         ([17.6, 0.0, 0.0], [-11.0, 0.0, 0.0])
