@@ -1,9 +1,10 @@
 //! What the motion keeps.
 
 use dvi::{Context, ContinuousSystem, State};
-use lie::{LieGroup, Vec3};
+use lie::{LieGroup, SO3, Vec3};
 
 use crate::error::ModelError;
+use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Velocity};
 
 /// Energy and the momentum maps of a state.
@@ -15,7 +16,7 @@ pub struct Conserved {
     pub kinetic: f64,
     /// Total linear momentum $\sum_i R_i M_i V_i$ from the velocities, kg m/s, reference frame: the carried $p_x$ proves nothing.
     pub linear: Vec3,
-    /// Total angular momentum about the origin, $x \times p_x + \sum_i R_i p_i$, kg m²/s, reference frame.
+    /// Total angular momentum about the origin, $x \times p_x + \sum_i R_i p_i$ over the roots, kg m²/s, reference frame; a held base does not keep it.
     pub angular: Vec3,
 }
 
@@ -27,8 +28,10 @@ impl ArticulatedBody {
     pub fn velocity(&self, state: &State<Configuration>) -> Result<Velocity, ModelError> {
         let State { t, g, mu } = state;
         if !(self.has_shape_of(g) && self.has_shape_of(mu)) {
-            let (expected, found) = (self.nodes.len(), g.0.len().max(mu.0.len()));
-            return Err(ModelError::Shape { expected, found });
+            return Err(match self.has_shape_of(g) {
+                true => self.shape_error(mu),
+                false => self.shape_error(g),
+            });
         }
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
         let (at, mut work) = (Context::new(*t, &[]), Default::default());
@@ -53,16 +56,28 @@ impl ArticulatedBody {
         state: &State<Configuration>,
     ) -> Result<(<Configuration as LieGroup>::Algebra, Conserved), ModelError> {
         let xi = self.velocity(state)?;
-        let ((r, x), (p, px)) = (&state.g, &state.mu);
-        let potential = self.loads.potential(r, x[0].vec3());
-        let spins = r.iter().zip(p.iter()).map(|(r, p)| r.rotate(p.vec3()));
-        let orbital = x[0].vec3().cross(px[0].vec3());
-        let kinetic = 0.5 * Configuration::pair(&state.mu, &xi);
+        let State { t, g, mu } = state;
+        let mut pose = Pose::default();
+        let (r, pose) = self.pose(*t, g, &mut pose);
+        let (momenta, linear) = self.body_momenta((r, pose), &xi);
+        let x = self.base_position(pose, g);
+        let spins: Vec<Vec3> = match self.is_free() {
+            true => {
+                let roots = self.roots.iter().zip(mu.0.iter());
+                roots.map(|(i, p)| r[*i].rotate(p.vec3())).collect()
+            }
+            false => r.iter().zip(&momenta).map(|(r, p)| r.rotate(*p)).collect(),
+        };
+        let carried = mu.1.first().map_or(linear, |px| px.vec3());
+        let kinetic = match self.moves_as_told() {
+            false => 0.5 * Configuration::pair(mu, &xi),
+            true => self.kinetic((r, pose), &xi),
+        };
         let conserved = Conserved {
-            energy: kinetic + potential,
+            energy: kinetic + self.potential((r, pose), g),
             kinetic,
-            linear: self.momenta(&state.g, &xi).1[0].vec3(),
-            angular: spins.fold(orbital, |sum, spin| sum + spin),
+            linear,
+            angular: spins.iter().fold(x.cross(carried), |sum, spin| sum + *spin),
         };
         let Conserved {
             energy,
@@ -79,5 +94,15 @@ impl ArticulatedBody {
             Some((_, quantity)) => Err(ModelError::NotFinite { quantity }),
             None => Ok((xi, conserved)),
         }
+    }
+
+    /// From the velocities of the bodies: of driven ones, half of $\langle \mu, \xi \rangle$ is not the kinetic energy, (S15).
+    fn kinetic(&self, at: (&[SO3], &Pose<f64>), xi: &Velocity) -> f64 {
+        let (rates, velocities) = self.body_velocities(at, xi);
+        let bodies = self.nodes.iter().zip(&self.masses).zip(rates).zip(velocities);
+        let twice = bodies.map(|(((node, mass), omega), v)| {
+            v.dot(mass.apply(v)) + omega.dot(node.j.apply(omega))
+        });
+        0.5 * twice.sum::<f64>()
     }
 }

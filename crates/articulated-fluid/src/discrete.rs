@@ -3,35 +3,54 @@
 use core::ops::Range;
 
 use dvi::{Context, Derivatives, DiscreteLagrangian, State};
-use lie::{Ldl3, Mat3, SO3, Scalar, Vec3};
+use lie::{Cotangent, Ldl3, Mat3, SO3, Scalar, Tangent, Vec3};
 use smallvec::SmallVec;
 
+use crate::displaced::{Expansion, Step};
 use crate::inertia::Elimination;
 use crate::kinematics::PerBody;
+use crate::pose::Drive;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
 impl ArticulatedBody {
     /// (22), with the displacement of the first body $\Delta x$ in the reference frame and its position `x`.
     ///
     /// With $E = F - I$, $B_i$ of (28) and $\mathrm{tr}[(I - F) J_d] = -\mathrm{tr}[E J_d]$.
-    fn action<S: Scalar>(&self, (r, x): &Configuration<S>, (f, dx): &Configuration<S>, h: S) -> S {
+    fn action<S: Scalar>(
+        &self,
+        t: S,
+        g: &Configuration<S>,
+        f: &Configuration<S>,
+        h: S,
+    ) -> S {
+        let mut work = Expansion::default();
+        let step = self.step((t, h), g, (&f.0, &f.2), &mut work);
         let mut sum = S::zero();
         let mut displacements: PerBody<Vec3<S>> = SmallVec::with_capacity(self.nodes.len());
         for (i, (node, mass)) in self.nodes.iter().zip(&self.masses).enumerate() {
             let b = match i {
-                0 => r[0].inverse_rotate(dx[0].vec3()),
+                0 => step.r[0].inverse_rotate(self.base_shift(step, f)),
                 _ => {
-                    let turn = f[node.parent].displacement();
+                    let turn = step.f[node.parent].displacement();
                     let joint = displacements[node.parent] + turn.apply(node.at_parent.lift());
-                    r[i].inverse_rotate(r[node.parent].rotate(joint))
+                    step.r[i].inverse_rotate(step.r[node.parent].rotate(joint))
                 }
             };
-            let (e, mb) = (f[i].displacement(), mass.apply(b));
+            let (e, mb) = (step.f[i].displacement(), mass.apply(b));
             let turned = e.apply(node.at_self.lift());
             displacements.push(b - turned);
             sum += b.dot(mb).times(0.5) - mb.dot(turned) - e.trace_with(node.jd);
         }
-        sum / h - h * self.loads.potential(r, x[0].vec3())
+        sum / h - h * self.potential((step.r, step.now), g)
+    }
+
+    /// The displacement of the first body's mass centre, or of its joint where it is held.
+    #[inline(always)]
+    fn base_shift<S: Scalar>(&self, step: Step<S>, f: &Configuration<S>) -> Vec3<S> {
+        match self.is_free() {
+            true => f.1[0].vec3(),
+            false => step.shift,
+        }
     }
 }
 
@@ -54,6 +73,10 @@ fn turn<S: Scalar>(moved: &Moved<S>) -> Mat3<S> {
 #[derive(Clone, Debug)]
 pub struct StepWorkspace<S = f64> {
     moved: Vec<Moved<S>>,
+    expansion: Expansion<S>,
+    /// By the attitudes of all bodies.
+    d_f: Vec<Cotangent<3, S>>,
+    d_g: Vec<Cotangent<3, S>>,
     /// $\mathbb I(g_k)$, factorised once a step, and $R_0$ there.
     inertia: Elimination<S>,
     r0: SO3<S>,
@@ -65,6 +88,9 @@ impl<S: Scalar> Default for StepWorkspace<S> {
     fn default() -> Self {
         Self {
             moved: Vec::new(),
+            expansion: Expansion::default(),
+            d_f: Vec::new(),
+            d_g: Vec::new(),
             inertia: Elimination::default(),
             r0: SO3::identity(),
             total_mass: Ldl3::identity(),
@@ -75,21 +101,16 @@ impl<S: Scalar> Default for StepWorkspace<S> {
 impl ArticulatedBody {
     /// The displacements that the turns alone make, $\Delta x = 0$, from the first body on.
     #[inline(always)]
-    fn displace<S: Scalar>(
-        &self,
-        (r, _): &Configuration<S>,
-        (f, _): &Configuration<S>,
-        moved: &mut Vec<Moved<S>>,
-    ) {
+    fn displace<S: Scalar>(&self, step: Step<S>, moved: &mut Vec<Moved<S>>) {
         moved.resize(self.nodes.len(), [Vec3::zero(); 6]);
         for (i, node) in self.nodes.iter().enumerate() {
-            let e = f[i].minus_identity();
+            let e = step.turn(i);
             let b = match i {
                 0 => Vec3::zero(),
                 _ => {
                     let parent: &Moved<S> = &moved[node.parent];
                     let joint = parent[4] + turn(parent) * node.at_parent.lift();
-                    r[i].inverse_rotate(r[node.parent].rotate(joint))
+                    step.r[i].inverse_rotate(step.r[node.parent].rotate(joint))
                 }
             };
             let y = b - e * node.at_self.lift();
@@ -106,20 +127,49 @@ impl ArticulatedBody {
         })
     }
 
-    /// (29)–(33) from the displacements, to which $\Delta x$ is added: momenta, back from the leaves.
+    /// (29)–(33) from the displacements, to which that of the base is added: momenta, back from the leaves.
     #[inline(always)]
     fn collect<S: Scalar>(
         &self,
-        (r, _): &Configuration<S>,
-        (f, dx): &Configuration<S>,
-        h: S,
+        g: &Configuration<S>,
+        step: Step<S>,
+        (dx, h): (Vec3<S>, S),
         moved: &mut [Moved<S>],
+        [own_f, own_g]: [&mut Vec<Cotangent<3, S>>; 2],
         out: &mut Derivatives<Configuration, S>,
     ) {
-        let (inverse_h, dx) = (S::one() / h, dx[0].vec3());
         let Derivatives { d_f, d_g, .. } = out;
-        d_f.0.fill(Vec3::zero().into());
-        d_g.0.fill(Vec3::zero().into());
+        let on_base = if self.has_inner() {
+            own_f.resize(self.nodes.len(), Cotangent::zero());
+            own_g.resize(self.nodes.len(), Cotangent::zero());
+            let on_base = self.collect_by_body(step, dx, h, moved, [&mut *own_f, &mut *own_g]);
+            self.gather_derivatives(step, [own_f, own_g], [&mut *d_f, &mut *d_g]);
+            self.loads.add_to_hinges(&g.2, h, &mut d_g.2);
+            on_base
+        } else {
+            self.collect_by_body(step, dx, h, moved, [&mut d_f.0, &mut d_g.0])
+        };
+        if self.is_free() {
+            d_f.1[0] = on_base.into();
+            let falling = self.loads.force().map(|force| force * h);
+            d_g.1[0] = falling.unwrap_or(Vec3::zero()).into();
+        }
+    }
+
+    /// The derivatives by the attitudes of all bodies; the one by the base is returned.
+    #[inline(always)]
+    fn collect_by_body<S: Scalar>(
+        &self,
+        step: Step<S>,
+        dx: Vec3<S>,
+        h: S,
+        moved: &mut [Moved<S>],
+        [d_f, d_g]: [&mut [Cotangent<3, S>]; 2],
+    ) -> Vec3<S> {
+        let Step { r, f, .. } = step;
+        let (inverse_h, mut on_base) = (S::one() / h, Vec3::zero());
+        d_f.fill(Vec3::zero().into());
+        d_g.fill(Vec3::zero().into());
         for (i, node) in self.nodes.iter().enumerate().rev() {
             let (e, [.., b, y, carried]) = (turn(&moved[i]), moved[i]);
             let shift = r[i].inverse_rotate(dx);
@@ -130,28 +180,27 @@ impl ArticulatedBody {
                 .lift::<S>()
                 .cross(f[i].inverse_rotate(mb + carried));
             let turned = rotation_momentum(node.jd, &e) - joint;
-            let slot = &mut d_f.0[i];
+            let slot = &mut d_f[i];
             *slot = ((slot.vec3() + turned) * inverse_h).into();
-            let slot = &mut d_g.0[i];
+            let slot = &mut d_g[i];
             *slot = ((slot.vec3() + my.cross(b)) * inverse_h).into();
             let on_joint = r[i].rotate(my + carried);
             if i == 0 {
-                d_f.1[0] = (on_joint * inverse_h).into();
+                on_base = on_joint * inverse_h;
                 continue;
             }
             let on_parent = r[node.parent].inverse_rotate(on_joint);
             let parent: &mut Moved<S> = &mut moved[node.parent];
             parent[5] += on_parent;
-            let slot = &mut d_f.0[node.parent];
+            let slot = &mut d_f[node.parent];
             let pushed = f[node.parent].inverse_rotate(on_parent);
             *slot = (slot.vec3() + node.at_parent.lift::<S>().cross(pushed)).into();
-            let slot = &mut d_g.0[node.parent];
+            let slot = &mut d_g[node.parent];
             let swept = turn(parent) * node.lever.lift();
             *slot = (slot.vec3() + swept.cross(on_parent)).into();
         }
-        self.loads.add_torques(r, h, &mut d_g.0);
-        let falling = self.loads.force().map(|force| force * h);
-        d_g.1[0] = falling.unwrap_or(Vec3::zero()).into();
+        self.loads.add_torques(r, h, d_g);
+        on_base
     }
 }
 
@@ -161,12 +210,12 @@ impl DiscreteLagrangian for ArticulatedBody {
 
     fn value<S: Scalar>(
         &self,
-        _: Context<S>,
+        at: Context<S>,
         g: &Configuration<S>,
         f: &Configuration<S>,
         h: S,
     ) -> S {
-        self.action(g, f, h)
+        self.action(at.t, g, f, h)
     }
 
     /// (29)–(33) by recursion: displacements from the first body on, momenta back from the leaves.
@@ -176,36 +225,45 @@ impl DiscreteLagrangian for ArticulatedBody {
     #[inline(always)]
     fn derivatives<S: Scalar>(
         &self,
-        _: Context<S>,
+        at: Context<S>,
         g: &Configuration<S>,
         f: &Configuration<S>,
         h: S,
         work: &mut StepWorkspace<S>,
         out: &mut Derivatives<Configuration, S>,
     ) {
-        self.displace(g, f, &mut work.moved);
-        self.collect(g, f, h, &mut work.moved, out);
+        let step = self.step((at.t, h), g, (&f.0, &f.2), &mut work.expansion);
+        self.displace(step, &mut work.moved);
+        let by_body = [&mut work.d_f, &mut work.d_g];
+        let shift = (self.base_shift(step, f), h);
+        self.collect(g, step, shift, &mut work.moved, by_body, out);
     }
 
-    fn is_defined(&self, _: f64, _: &Configuration) -> bool {
-        true
+    fn is_defined(&self, t: f64, _: &Configuration) -> bool {
+        self.knows(t)
     }
 
     #[inline(always)]
-    fn factorise(&self, (r, _): &Configuration, work: &mut StepWorkspace) {
+    fn factorise(&self, t: f64, g: &Configuration, work: &mut StepWorkspace) {
+        let (r, pose) = self.pose(t, g, &mut work.expansion.now);
         work.r0 = r[0];
-        work.inertia.factorise(self, r);
-        work.total_mass = self.total_mass(r).ldl();
+        work.inertia.factorise(self, r, &pose.c);
+        if self.is_free() {
+            work.total_mass = self.total_mass(r).ldl();
+        }
     }
 
+    /// What moves as told is at rest: the matrix of a step.
     #[inline(always)]
     fn solve(&self, work: &mut StepWorkspace, mu: &Momentum, xi: &mut Velocity) {
-        work.inertia.begin(self, &work.r0, mu);
-        work.inertia.finish(self, &work.r0, xi);
+        let still = Drive::at_rest();
+        work.inertia.begin(self, &work.r0, still, mu);
+        work.inertia.finish(self, &work.r0, still, xi);
     }
 
     fn solve_cyclic(&self, work: &mut StepWorkspace, mu: &Momentum, xi: &mut Velocity) {
         xi.0.fill(Vec3::zero().into());
+        xi.2.fill(Tangent([0.0]));
         xi.1[0] = work.total_mass.solve(mu.1[0].vec3()).into();
     }
 
@@ -219,18 +277,23 @@ impl DiscreteLagrangian for ArticulatedBody {
     fn eliminate(
         &self,
         work: &mut StepWorkspace,
-        (State { g, mu, .. }, h): (&State<Configuration>, f64),
+        (State { t, g, mu }, h): (&State<Configuration>, f64),
         f: &mut Configuration,
         c: &mut Velocity,
         out: &mut Derivatives<Configuration, f64>,
     ) {
-        self.displace(g, f, &mut work.moved);
-        let mut rest = mu.1[0].vec3() * h - self.turning_momentum(&g.0, &work.moved);
-        if let Some(force) = self.loads.force::<f64>() {
-            rest += force * (h * h);
+        let step = self.step((*t, h), g, (&f.0, &f.2), &mut work.expansion);
+        self.displace(step, &mut work.moved);
+        let mut shift = step.shift;
+        if self.is_free() {
+            let mut rest = mu.1[0].vec3() * h - self.turning_momentum(step.r, &work.moved);
+            if let Some(force) = self.loads.force::<f64>() {
+                rest += force * (h * h);
+            }
+            shift = work.total_mass.solve(rest);
+            (f.1[0], c.1[0]) = (shift.into(), shift.into());
         }
-        let solved = work.total_mass.solve(rest);
-        (f.1[0], c.1[0]) = (solved.into(), solved.into());
-        self.collect(g, f, h, &mut work.moved, out);
+        let by_body = [&mut work.d_f, &mut work.d_g];
+        self.collect(g, step, (shift, h), &mut work.moved, by_body, out);
     }
 }

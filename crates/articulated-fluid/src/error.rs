@@ -51,6 +51,12 @@ pub enum ModelError {
         /// Index of the last body.
         last: usize,
     },
+    /// A hinge has no axis of length 1, or its angle at rest is not finite.
+    #[error("the hinge of body {body} has no unit axis or no finite angle at rest; make it by JointKind::hinge")]
+    Hinge {
+        /// Index of the body that hangs on it.
+        body: usize,
+    },
     /// There is not one net mass for each body.
     #[error("there are {found} net masses for {expected} bodies; expected one for each")]
     NetMasses {
@@ -77,18 +83,27 @@ pub enum ModelError {
         /// The stiffness given, N m.
         stiffness: f64,
     },
+    /// A joint that leaves nothing free has a spring.
+    #[error("the joint of body {body} is fixed or prescribed and has a spring; give it no stiffness")]
+    Spring {
+        /// Index of the body that hangs on the joint.
+        body: usize,
+    },
     /// A state has, or leads to, a number that is not finite.
     #[error("the state's {quantity} is not finite; check attitudes, velocities and the step")]
     NotFinite {
         /// What is not finite.
         quantity: &'static str,
     },
-    /// The state has another number of bodies than the model.
-    #[error("the state has {found} bodies, the model {expected}")]
+    /// The state has other unknowns than the model.
+    #[error(
+        "the state has {} attitudes, {} positions and {} hinge angles, the model {}, {} and {}",
+        found[0], found[1], found[2], expected[0], expected[1], expected[2]
+    )]
     Shape {
-        /// Bodies of the model.
-        expected: usize,
-        /// Bodies of the state.
-        found: usize,
+        /// Attitudes, positions and hinge angles of the model.
+        expected: [usize; 3],
+        /// Those of the state.
+        found: [usize; 3],
     },
 }

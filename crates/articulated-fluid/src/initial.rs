@@ -1,11 +1,14 @@
 //! From a scene to a model and its initial state.
 
+use std::sync::Arc;
+
 use dvi::State;
 use lie::{Cotangent, LieGroup, Mat3, Power, Rn, SO3, Tangent, Vec3, VectorSpace};
 
 use crate::error::ModelError;
+use crate::joints::JointKind;
 use crate::node::{Body, Joint};
-use crate::scene::{Scene, SceneBody, SceneJoint, StartVelocity};
+use crate::scene::{Mobility, Scene, SceneBody, SceneJoint, StartVelocity};
 use crate::tree::{ArticulatedBody, Configuration, Velocity};
 use crate::views::Rerooted;
 
@@ -19,15 +22,20 @@ impl Scene {
             mass: Mat3(body.total_mass),
             inertia: Mat3(body.total_inertia),
         };
-        let joint = |joint: &SceneJoint| Joint {
-            parent: joint.parent,
-            child: joint.child,
-            at_parent: Vec3(joint.at_parent),
-            at_child: Vec3(joint.at_child),
+        let joint = |joint: &SceneJoint| {
+            let points = [Vec3(joint.at_parent), Vec3(joint.at_child)];
+            let kind = joint.mobility.kind.clone();
+            Joint::new([joint.parent, joint.child], points, kind)
         };
         let bodies: Vec<_> = self.bodies.iter().map(body).collect();
         let joints: Vec<_> = self.joints.iter().map(joint).collect();
-        let model = ArticulatedBody::new(&bodies, &joints)?;
+        let model = match &self.mount {
+            None => ArticulatedBody::new(&bodies, &joints)?,
+            Some(mount) => {
+                let on = (Vec3(mount.at_child), mount.mobility.kind.clone());
+                ArticulatedBody::held(&bodies, &joints, on, Arc::new(mount.place.clone()))?
+            }
+        };
         let model = model.with_stiffness(&self.stiffnesses())?;
         if !self.has_weight() {
             return Ok(model);
@@ -36,11 +44,17 @@ impl Scene {
         model.with_gravity(Vec3(self.gravity), &net_masses)
     }
 
-    /// In the order of the bodies that hang on the joints.
+    /// That of the joint to the world first, then in the order of the bodies that hang on the joints.
     fn stiffnesses(&self) -> Vec<f64> {
+        self.mobilities().map(|(_, mobility)| mobility.stiffness).collect()
+    }
+
+    /// What the joints leave free, in the order of the bodies that hang on them.
+    fn mobilities(&self) -> impl Iterator<Item = (usize, &Mobility)> {
         let mut joints: Vec<&SceneJoint> = self.joints.iter().collect();
         joints.sort_by_key(|joint| joint.child);
-        joints.into_iter().map(|joint| joint.stiffness).collect()
+        let mount = self.mount.iter().map(|mount| (0, &mount.mobility));
+        mount.chain(joints.into_iter().map(|joint| (joint.child, &joint.mobility)))
     }
 
     /// Whether gravity acts on a body that is heavier or lighter than what it displaces.
@@ -64,48 +78,97 @@ impl Scene {
         velocity: StartVelocity,
     ) -> Result<State<Configuration>, ModelError> {
         let (mut g, mut xi) = (self.configuration(), self.rates());
-        if let StartVelocity::Given(velocity) = velocity {
+        if let (StartVelocity::Given(velocity), None) = (velocity, &self.mount) {
             xi.1[0] = Tangent(velocity);
         }
         if let Some(root) = root {
             (g, xi) = root.motion(&g, &xi);
         }
-        let floats = velocity == StartVelocity::ZeroMomentum;
-        if floats {
-            stop(model, &g, &mut xi);
+        match velocity {
+            StartVelocity::Given(_) => {}
+            StartVelocity::ZeroMomentum => stop(model, &g, &mut xi),
+            StartVelocity::NoMomentum => stop_turning(model, &g, &mut xi),
         }
-        require(xi.1[0].vec3().is_finite(), "velocity")?;
-        let mut mu = model.momenta(&g, &xi);
-        if floats {
+        let velocities = xi.1.iter().all(|v| v.vec3().is_finite());
+        require(velocities, "velocity")?;
+        let mut mu = model.momenta(0.0, &g, &xi);
+        if !matches!(velocity, StartVelocity::Given(_)) {
             // The velocity is rounded, and the momentum is not.
-            mu.1[0] = Cotangent::zero();
+            mu.1.fill(Cotangent::zero());
         }
         require(g.is_finite(), "configuration")?;
         require(mu.max_magnitude().is_finite(), "momentum")?;
         Ok(State { t: 0.0, g, mu })
     }
 
-    fn configuration(&self) -> Configuration {
-        let attitude = |body: &SceneBody| SO3::from_quaternion(body.attitude);
-        let attitudes = self.bodies.iter().map(attitude).collect();
-        (attitudes, Power::new(vec![Rn(self.position)]))
+    /// What a joint or a free base leaves free of body `i`.
+    fn kind(&self, i: usize) -> &JointKind {
+        self.mobility(i).map_or(&JointKind::Ball, |mobility| &mobility.kind)
     }
 
-    /// The angular velocities.
+    /// The bodies whose attitudes are unknowns.
+    fn roots(&self) -> impl Iterator<Item = &SceneBody> {
+        let bodies = self.bodies.iter().enumerate();
+        bodies.filter_map(|(i, body)| (*self.kind(i) == JointKind::Ball).then_some(body))
+    }
+
+    /// What the hinges start with.
+    fn hinges(&self) -> impl Iterator<Item = &Mobility> {
+        let all = self.mobilities().map(|(_, mobility)| mobility);
+        all.filter(|mobility| matches!(mobility.kind, JointKind::Hinge(_)))
+    }
+
+    fn configuration(&self) -> Configuration {
+        let attitude = |body: &SceneBody| SO3::from_quaternion(body.attitude);
+        let free = usize::from(self.mount.is_none());
+        (
+            self.roots().map(attitude).collect(),
+            Power::new(vec![Rn(self.position); free]),
+            self.hinges().map(|hinge| Rn([hinge.angle])).collect(),
+        )
+    }
+
+    /// The angular velocities, and the rates of the hinges.
     fn rates(&self) -> Velocity {
         let rate = |body: &SceneBody| Tangent(body.angular_velocity);
-        let rates = self.bodies.iter().map(rate).collect();
-        (rates, Power::new(vec![Tangent::zero()]))
+        let free = usize::from(self.mount.is_none());
+        (
+            self.roots().map(rate).collect(),
+            Power::new(vec![Tangent::zero(); free]),
+            self.hinges().map(|hinge| Tangent([hinge.rate])).collect(),
+        )
     }
 }
 
 /// Sets the velocity to the one of no linear momentum.
 fn stop(model: &ArticulatedBody, g: &Configuration, xi: &mut Velocity) {
-    let total = model.total_mass(&g.0).ldl();
+    let total = model.total_mass_of(g).ldl();
     // The second time for the rounding of the first.
     for _ in 0..2 {
-        let linear = model.momenta(g, xi).1[0].vec3();
+        let linear = model.total_momentum(g, xi)[0];
         xi.1[0] = Tangent((xi.1[0].vec3() - total.solve(linear)).0);
+    }
+}
+
+/// Adds the velocity of a rigid whole for which neither linear nor angular momentum is left.
+fn stop_turning(model: &ArticulatedBody, g: &Configuration, xi: &mut Velocity) {
+    let zero = Vec3::zero();
+    let axes = Mat3::identity().0.map(Vec3);
+    // The momentum is affine in the velocity: what moves as told has its own. The second time for the rounding of the first.
+    for _ in 0..2 {
+        let [p, l] = model.total_momentum(g, xi);
+        let gained = |v: Vec3, w: Vec3| {
+            let [q, k] = model.total_momentum(g, &model.carried(g, xi, [v, w]));
+            [q - p, k - l]
+        };
+        let (along, about) = (axes.map(|v| gained(v, zero)), axes.map(|w| gained(zero, w)));
+        let columns = |of: [[Vec3; 2]; 3], part: usize| Mat3(of.map(|c| c[part].0)).transpose();
+        let (mass, coupling, inertia) = (columns(along, 0), columns(about, 0), columns(about, 1));
+        let by_mass = mass.inverse() * coupling;
+        let schur = inertia - coupling.transpose() * by_mass;
+        let w = schur.inverse() * (coupling.transpose_mul(mass.inverse() * p) - l);
+        let v = -(mass.inverse() * p) - by_mass * w;
+        *xi = model.carried(g, xi, [v, w]);
     }
 }
 

@@ -1,9 +1,12 @@
 //! Where the bodies are and how they move: what viewers, tables and monitors read.
 
-use lie::{Cotangent, Power, SO3, Scalar, Vec3};
+use lie::{LieGroup, Power, SO3, Scalar, Sym3, Vec3};
 use smallvec::SmallVec;
 
-use crate::node::Joint;
+use crate::error::ModelError;
+use crate::joints::Role;
+use crate::node::Node;
+use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
 /// Bodies whose quantities fit on the stack.
@@ -13,61 +16,171 @@ const FEW: usize = 8;
 pub(crate) type PerBody<T> = SmallVec<[T; FEW]>;
 
 impl ArticulatedBody {
-    /// The largest $\lVert I - R_i^T R_i \rVert_F$ of the bodies.
+    /// The attitudes of all bodies at the time of a state, body to reference frame.
+    ///
+    /// # Errors
+    /// [`ModelError::Shape`] where the state is not one of this model.
+    pub fn attitudes(&self, t: f64, g: &Configuration) -> Result<Vec<SO3>, ModelError> {
+        self.check(g)?;
+        Ok(self.pose(t, g, &mut Pose::default()).0.to_vec())
+    }
+
+    /// Where the mass centres are, in the reference frame: $x$, then $x_p + R_p d_{pi} - R_i d_{ip}$, m.
+    ///
+    /// # Errors
+    /// As [`attitudes`](Self::attitudes).
+    pub fn centre_positions(&self, t: f64, g: &Configuration) -> Result<Vec<Vec3>, ModelError> {
+        self.check(g)?;
+        let mut pose = Pose::default();
+        let (r, pose) = self.pose(t, g, &mut pose);
+        let on = self.base_position(pose, g);
+        let mut centres: Vec<Vec3> = Vec::with_capacity(r.len());
+        for (i, node) in self.nodes.iter().enumerate() {
+            let joint = match i {
+                0 => on,
+                _ => centres[node.parent] + r[node.parent].rotate(node.at_parent),
+            };
+            centres.push(joint - r[i].rotate(node.at_self));
+        }
+        Ok(centres)
+    }
+
+    /// Where the joints are, in the reference frame: $x_p + R_p d_{pi}$, m, in the order of the bodies that hang on them.
+    ///
+    /// # Errors
+    /// As [`attitudes`](Self::attitudes).
+    pub fn joint_positions(&self, t: f64, g: &Configuration) -> Result<Vec<Vec3>, ModelError> {
+        let (centres, r) = (self.centre_positions(t, g)?, self.attitudes(t, g)?);
+        let tails = self.nodes.iter().skip(1);
+        let position =
+            |node: &Node| centres[node.parent] + r[node.parent].rotate(node.at_parent);
+        Ok(tails.map(position).collect())
+    }
+
+    /// The largest $\lVert I - R_i^T R_i \rVert_F$ of the attitudes that are unknowns.
     pub fn orthogonality_error(&self, g: &Configuration) -> f64 {
         g.0.iter().map(SO3::orthogonality_error).fold(0.0, f64::max)
     }
 
-    /// Where the joints are, in the reference frame: $x_p + R_p d_{pi}$, m, in the order of the bodies that hang on them;
-    /// as many as both the model and `g` have.
-    pub fn joint_positions(&self, g: &Configuration) -> Vec<Vec3> {
-        let centres = self.centre_positions(g);
-        let known = self.joints().zip(centres.iter().skip(1));
-        let position =
-            |joint: Joint| centres[joint.parent] + g.0[joint.parent].rotate(joint.at_parent);
-        known.map(|(joint, _)| position(joint)).collect()
-    }
-
-    /// Where the mass centres are, in the reference frame: $x$, then $x_p + R_p d_{pi} - R_i d_{ip}$, m;
-    /// as many as both the model and `g` have.
-    pub fn centre_positions(&self, (r, x): &Configuration) -> Vec<Vec3> {
-        let mut centres: Vec<Vec3> = x.iter().take(r.len().min(1)).map(|x| x.vec3()).collect();
-        for (joint, r_i) in self.joints().zip(r.iter().skip(1)) {
-            if let Some(centre) = centres.get(joint.parent) {
-                let at = *centre + r[joint.parent].rotate(joint.at_parent);
-                centres.push(at - r_i.rotate(joint.at_child));
-            }
+    fn check(&self, g: &Configuration) -> Result<(), ModelError> {
+        match self.has_shape_of(g) {
+            true => Ok(()),
+            false => Err(self.shape_error(g)),
         }
-        centres
     }
 
-    /// The velocities $V_i$ of the mass centres, each in its body's frame, (16):
-    /// $V_i = C_i^T (V_p + \Omega_p \times d_{pi}) + d_{ip} \times \Omega_i$.
-    pub(crate) fn centre_velocities<S: Scalar>(
+    /// The error that a configuration or a momentum has another number of unknowns.
+    pub(crate) fn shape_error<R, X, Q>(
         &self,
-        r: &[SO3<S>],
-        (omega, dx): &Velocity<S>,
-    ) -> PerBody<Vec3<S>> {
-        let mut velocities: PerBody<Vec3<S>> = SmallVec::with_capacity(self.nodes.len());
-        velocities.push(r[0].inverse_rotate(dx[0].vec3()));
-        for (i, node) in self.nodes.iter().enumerate().skip(1) {
-            let swept = omega[node.parent].vec3().cross(node.at_parent.lift());
-            let joint = r[node.parent].rotate(velocities[node.parent] + swept);
-            let own = node.at_self.lift::<S>().cross(omega[i].vec3());
-            velocities.push(r[i].inverse_rotate(joint) + own);
+        (r, x, q): &(Power<R>, Power<X>, Power<Q>),
+    ) -> ModelError {
+        ModelError::Shape {
+            expected: [self.roots.len(), usize::from(self.is_free()), self.hinges.len()],
+            found: [r.len(), x.len(), q.len()],
         }
-        velocities
     }
 
-    /// The momenta of a velocity of the right shape, (10) with the rows of (4): with $F_i = M_i V_i + \sum_k C_k F_k$,
-    /// $p_x = R_0 F_0$ and $p_i = J_i \Omega_i - d_{ip} \times F_i + \sum_k d_{ik} \times C_k F_k$.
-    pub(crate) fn momenta(&self, (r, _): &Configuration, xi: &Velocity) -> Momentum {
-        let mut momenta = self.centre_velocities(r, xi);
+    /// The position of the first body's mass centre, or of its joint where it is held, m.
+    #[inline(always)]
+    pub(crate) fn base_position<S: Scalar>(&self, pose: &Pose<S>, g: &Configuration<S>) -> Vec3<S> {
+        match self.is_free() {
+            true => g.1[0].vec3(),
+            false => pose.place[0],
+        }
+    }
+
+    /// The potential of all loads, J.
+    pub(crate) fn potential<S: Scalar>(
+        &self,
+        (r, pose): (&[SO3<S>], &Pose<S>),
+        g: &Configuration<S>,
+    ) -> S {
+        let x = self.base_position(pose, g);
+        self.loads.potential(r, x) + self.loads.potential_of_hinges(&g.2)
+    }
+
+    /// The rates $\Omega_i$, (S1), and the velocities $V_i$ of the mass centres, (16), each in its body's frame:
+    /// $V_i = C_i^T (V_p + \Omega_p \times d_{pi}) + d_{ip} \times \Omega_i$.
+    pub(crate) fn body_velocities<S: Scalar>(
+        &self,
+        (r, pose): (&[SO3<S>], &Pose<S>),
+        (omega, dx, dq): &Velocity<S>,
+    ) -> (PerBody<Vec3<S>>, PerBody<Vec3<S>>) {
+        let bodies = self.nodes.len();
+        let mut rates: PerBody<Vec3<S>> = SmallVec::with_capacity(bodies);
+        let mut velocities: PerBody<Vec3<S>> = SmallVec::with_capacity(bodies);
+        for (i, node) in self.nodes.iter().enumerate() {
+            let turning = |rates: &[Vec3<S>]| match i {
+                0 => Vec3::zero(),
+                _ => pose.c[i].inverse_rotate(rates[node.parent]),
+            };
+            let rate = match node.role {
+                Role::Ball(k) => omega[k].vec3(),
+                Role::Hinge(k) => turning(&rates) + self.hinges[k].axis.lift() * dq[k][0],
+                Role::Prescribed(_) => turning(&rates) + pose.rates[i],
+            };
+            let own = node.at_self.lift::<S>().cross(rate);
+            let on = match i {
+                0 if self.is_free() => dx[0].vec3(),
+                0 => pose.place[1],
+                _ => {
+                    let swept = rates[node.parent].cross(node.at_parent.lift());
+                    r[node.parent].rotate(velocities[node.parent] + swept)
+                }
+            };
+            velocities.push(r[i].inverse_rotate(on) + own);
+            rates.push(rate);
+        }
+        (rates, velocities)
+    }
+
+    /// The momenta of a velocity of the right shape, (10) with the rows of (4), and by (S4) those of what the joints leave free.
+    pub(crate) fn momenta(&self, t: f64, g: &Configuration, xi: &Velocity) -> Momentum {
+        let mut pose = Pose::default();
+        let (r, pose) = self.pose(t, g, &mut pose);
+        let bodies = self.body_momenta((r, pose), xi);
+        self.gather_momenta(pose, bodies)
+    }
+
+    /// Linear momentum, and the angular one about the first body's mass centre or its joint to the world, at the time 0.
+    pub(crate) fn total_momentum(&self, g: &Configuration, xi: &Velocity) -> [Vec3; 2] {
+        let mut pose = Pose::default();
+        let (r, pose) = self.pose(0.0, g, &mut pose);
+        let (p, linear) = self.body_momenta((r, pose), xi);
+        let spins = r.iter().zip(&p).map(|(r, p)| r.rotate(*p));
+        [linear, spins.fold(Vec3::zero(), |sum, spin| sum + spin)]
+    }
+
+    /// The velocity with that of a rigid whole added, which turns at `w` about the first body's mass centre, in the reference frame.
+    pub(crate) fn carried(&self, g: &Configuration, xi: &Velocity, [v, w]: [Vec3; 2]) -> Velocity {
+        let mut moved = xi.clone();
+        for (omega, r) in moved.0.iter_mut().zip(g.0.iter()) {
+            *omega = (omega.vec3() + r.inverse_rotate(w)).into();
+        }
+        for x in moved.1.iter_mut() {
+            *x = (x.vec3() + v).into();
+        }
+        moved
+    }
+
+    /// $\sum_i R_i M_i R_i^T$ at the time 0.
+    pub(crate) fn total_mass_of(&self, g: &Configuration) -> Sym3 {
+        self.total_mass(self.pose(0.0, g, &mut Pose::default()).0)
+    }
+
+    /// With $F_i = M_i V_i + \sum_k C_k F_k$: the total $p_x = R_0 F_0$ and
+    /// $p_i = J_i \Omega_i - d_{ip} \times F_i + \sum_k d_{ik} \times C_k F_k$.
+    pub(crate) fn body_momenta(
+        &self,
+        (r, pose): (&[SO3], &Pose<f64>),
+        xi: &Velocity,
+    ) -> (PerBody<Vec3>, Vec3) {
+        let (rates, mut momenta) = self.body_velocities((r, pose), xi);
         for (v, mass) in momenta.iter_mut().zip(&self.masses) {
             *v = mass.apply(*v);
         }
-        let spins = self.nodes.iter().zip(xi.0.iter());
-        let mut p: PerBody<Vec3> = spins.map(|(node, omega)| node.j * omega.vec3()).collect();
+        let spins = self.nodes.iter().zip(rates);
+        let mut p: PerBody<Vec3> = spins.map(|(node, omega)| node.j * omega).collect();
         for (i, node) in self.nodes.iter().enumerate().skip(1).rev() {
             let force = r[i].rotate(momenta[i]);
             let on_parent = r[node.parent].inverse_rotate(force);
@@ -75,7 +188,30 @@ impl ArticulatedBody {
             p[node.parent] += node.at_parent.cross(on_parent);
             momenta[node.parent] += on_parent;
         }
-        let linear = Power::new(vec![r[0].rotate(momenta[0]).into()]);
-        (p.into_iter().map(Cotangent::from).collect(), linear)
+        p[0] -= self.nodes[0].at_self.cross(momenta[0]);
+        (p, r[0].rotate(momenta[0]))
+    }
+
+    /// $n_i = p_i + \sum_k C_k n_k$ over what hangs on $i$ by no ball: of a root $n$, of a hinge $s \cdot n$, (S4).
+    fn gather_momenta(&self, pose: &Pose<f64>, (mut n, linear): (PerBody<Vec3>, Vec3)) -> Momentum {
+        let mut momenta = self.aligned().zero_dual();
+        for (i, node) in self.nodes.iter().enumerate().rev() {
+            match node.role {
+                Role::Ball(k) => {
+                    momenta.0[k] = n[i].into();
+                    continue;
+                }
+                Role::Hinge(k) => momenta.2[k][0] = self.hinges[k].axis.dot(n[i]),
+                Role::Prescribed(_) => {}
+            }
+            if i > 0 {
+                let on_parent = pose.c[i].rotate(n[i]);
+                n[node.parent] += on_parent;
+            }
+        }
+        if self.is_free() {
+            momenta.1[0] = linear.into();
+        }
+        momenta
     }
 }

@@ -1,9 +1,10 @@
 //! The continuous model: the Lagrangian (6), the Legendre transform (10), the forces (11)–(13), Hamilton's equations (18)–(20).
 
 use dvi::{Context, ContinuousSystem, Lagrangian, ShapeError, System};
-use lie::{Scalar, Vec3};
+use lie::{Cotangent, Scalar, Vec3};
 
 use crate::inertia::Elimination;
+use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
 impl System for ArticulatedBody {
@@ -11,10 +12,14 @@ impl System for ArticulatedBody {
 
     /// The first body's position, but under a weight: $x$ enters nowhere, and the displacement $\Delta x$ enters (31) linearly.
     fn cyclic(&self) -> core::ops::Range<usize> {
-        match self.loads.let_float() {
+        match self.is_free() && self.loads.let_float() {
             true => self.translation(),
             false => 0..0,
         }
+    }
+
+    fn is_driven(&self) -> bool {
+        self.moves_as_told()
     }
 
     fn fits(&self, g: &Configuration) -> bool {
@@ -24,40 +29,78 @@ impl System for ArticulatedBody {
 
 impl Lagrangian for ArticulatedBody {
     /// The kinetic energy (6), less the potential of the loads.
-    fn value<S: Scalar>(&self, _: Context<S>, g: &Configuration<S>, xi: &Velocity<S>) -> S {
-        let velocities = self.centre_velocities(&g.0, xi);
+    fn value<S: Scalar>(&self, at: Context<S>, g: &Configuration<S>, xi: &Velocity<S>) -> S {
+        let mut pose = Pose::default();
+        let (r, pose) = self.pose(at.t, g, &mut pose);
+        let (rates, velocities) = self.body_velocities((r, pose), xi);
         let mut twice = S::zero();
         for (i, (node, v)) in self.nodes.iter().zip(velocities).enumerate() {
-            let omega = xi.0[i].vec3();
+            let omega = rates[i];
             twice += v.dot(self.masses[i].apply(v)) + omega.dot(node.j.apply(omega));
         }
-        twice.times(0.5) - self.loads.potential(&g.0, g.1[0].vec3())
+        twice.times(0.5) - self.potential((r, pose), g)
     }
 
     /// (10), in closed form.
-    fn legendre(&self, _: f64, g: &Configuration, xi: &Velocity) -> Result<Momentum, ShapeError> {
+    fn legendre(&self, t: f64, g: &Configuration, xi: &Velocity) -> Result<Momentum, ShapeError> {
         self.check_shape(g, xi)?;
-        Ok(self.momenta(g, xi))
+        Ok(self.momenta(t, g, xi))
+    }
+}
+
+/// Storage of an evaluation.
+#[derive(Clone, Debug)]
+pub struct Evaluation<S = f64> {
+    pose: Pose<S>,
+    elimination: Elimination<S>,
+    /// On each body about its joint.
+    torques: Vec<Cotangent<3, S>>,
+}
+
+impl<S: Scalar> Default for Evaluation<S> {
+    fn default() -> Self {
+        Self {
+            pose: Pose::default(),
+            elimination: Elimination::default(),
+            torques: Vec::new(),
+        }
     }
 }
 
 impl ContinuousSystem for ArticulatedBody {
-    type Workspace<S: Scalar> = Elimination<S>;
+    type Workspace<S: Scalar> = Evaluation<S>;
     const INLINE: bool = true;
 
     #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,
-        _: Context<S>,
-        (r, _): &Configuration<S>,
+        at: Context<S>,
+        g: &Configuration<S>,
         mu: &Momentum<S>,
-        elimination: &mut Elimination<S>,
+        work: &mut Evaluation<S>,
         xi: &mut Velocity<S>,
         tau: &mut Momentum<S>,
     ) {
-        elimination.factorise_and_begin(self, r, mu);
-        elimination.finish_with_forces(self, &r[0], xi, tau);
-        tau.1[0] = self.loads.force().unwrap_or(Vec3::zero()).into();
-        self.loads.add_torques(r, S::one(), &mut tau.0);
+        let Evaluation {
+            pose,
+            elimination,
+            torques,
+        } = work;
+        let (r, pose) = self.pose(at.t, g, pose);
+        let drive = pose.drive();
+        elimination.factorise_and_begin(self, (r, &pose.c), drive, mu);
+        if self.has_inner() {
+            torques.resize(r.len(), Cotangent::zero());
+            elimination.finish_with_forces(self, &r[0], drive, xi, torques);
+            self.loads.add_torques(r, S::one(), torques);
+            elimination.gather(self, torques, tau);
+            self.loads.add_to_hinges(&g.2, S::one(), &mut tau.2);
+        } else {
+            elimination.finish_with_forces(self, &r[0], drive, xi, &mut tau.0);
+            self.loads.add_torques(r, S::one(), &mut tau.0);
+        }
+        if self.is_free() {
+            tau.1[0] = self.loads.force().unwrap_or(Vec3::zero()).into();
+        }
     }
 }

@@ -2,6 +2,8 @@
 
 use lie::{Mat3, Sym3, Vec3};
 
+use crate::joints::{JointKind, Role};
+
 /// The total inertia of one body, the body's own plus the added one of the fluid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
@@ -11,8 +13,18 @@ pub struct Body {
     pub inertia: Mat3,
 }
 
-/// A ball joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A joint: where it is on both bodies, and what it leaves free.
+///
+/// ```
+/// use articulated_fluid::{Joint, JointKind};
+/// use lie::{SO3, Vec3};
+///
+/// let (at_parent, at_child) = (Vec3([0.5, 0.0, 0.0]), Vec3([-0.5, 0.0, 0.0]));
+/// let ball = Joint::new([0, 1], [at_parent, at_child], JointKind::Ball);
+/// let elbow = JointKind::hinge(Vec3([0.0, 0.0, 2.0]), SO3::identity());
+/// let hinge = Joint::new([1, 2], [at_parent, at_child], elbow);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Index of the body it is on.
     pub parent: usize,
@@ -22,6 +34,25 @@ pub struct Joint {
     pub at_parent: Vec3,
     /// $d_{ip}$: from the child's mass centre, in the child's frame, m.
     pub at_child: Vec3,
+    /// What it leaves free.
+    pub kind: JointKind,
+}
+
+impl Joint {
+    /// The joint between a parent and a child, at these points of theirs.
+    pub fn new(
+        [parent, child]: [usize; 2],
+        [at_parent, at_child]: [Vec3; 2],
+        kind: JointKind,
+    ) -> Self {
+        Self {
+            parent,
+            child,
+            at_parent,
+            at_child,
+            kind,
+        }
+    }
 }
 
 /// A body, its joint to its parent, and what follows from them.
@@ -29,6 +60,7 @@ pub struct Joint {
 pub(crate) struct Node {
     /// Index of the parent; of the first body, which has none, 0.
     pub(crate) parent: usize,
+    pub(crate) role: Role,
     pub(crate) is_leaf: bool,
     /// Whether the elimination, which goes through the bodies backwards, meets the parent's children here first.
     pub(crate) is_last_sibling: bool,
@@ -50,16 +82,17 @@ pub(crate) struct Node {
 
 impl Node {
     /// A body on a joint, whose parent hangs on its own joint at `on`, in the parent's frame.
-    pub(crate) fn new(body: &Body, joint: Option<Joint>, on: Vec3) -> Self {
-        let zero = Vec3::zero();
-        let (parent, at_parent, at_self) = match joint {
-            Some(joint) => (joint.parent, joint.at_parent, joint.at_child),
-            None => (0, zero, zero),
-        };
+    pub(crate) fn new(
+        body: &Body,
+        (parent, [at_parent, at_self]): (usize, [Vec3; 2]),
+        on: Vec3,
+        role: Role,
+    ) -> Self {
         let (m, d) = (body.mass, at_self.hat());
         let j_joint = body.inertia - d * m * d;
         Self {
             parent,
+            role,
             is_leaf: true,
             is_last_sibling: true,
             j: body.inertia,

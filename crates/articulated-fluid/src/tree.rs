@@ -2,17 +2,22 @@
 
 use core::ops::Range;
 
-use lie::{AlgebraOver, DualOver, Mat3, Power, R3, SO3, Vec3};
+use std::sync::Arc;
+
+use lie::{AlgebraOver, DualOver, Mat3, Power, R3, Rn, SO3, Vec3};
 
 use crate::error::ModelError;
-use crate::joints::Link;
-use crate::loads::{Loads, Springs, Weight};
+use crate::joints::{Hinge, JointKind, Link, Role};
+use crate::loads::{HingeSpring, HingeSprings, Loads, Spring, Springs, Weight};
+use crate::motion::{Law, Motion};
 use crate::node::{Body, Joint, Node};
 
-/// The paper's direct product $SO(3)^{n+1} \times \mathbb{R}^3$, $g = ((R_0, \dots, R_n), x)$, its factors grouped by kind.
+/// What the joints leave free, grouped by kind: attitudes, the position of a free base, hinge angles.
 ///
-/// $R_i$ maps body $i$'s frame to the reference frame; $x$, the only factor of its kind, is the mass centre of the first body, in metres.
-pub type Configuration<S = f64> = (Power<SO3<S>>, Power<R3<S>>);
+/// On ball joints with a free base it is the paper's direct product $SO(3)^{n+1} \times \mathbb{R}^3$, $g = ((R_0, \dots, R_n), x)$:
+/// $R_i$ maps body $i$'s frame to the reference frame, and $x$, the only factor of its kind, is the mass centre of the first body, in metres.
+/// A hinge has its angle, in rad and not wrapped, and a prescribed joint nothing; a base on the world has no $x$.
+pub type Configuration<S = f64> = (Power<SO3<S>>, Power<R3<S>>, Power<Rn<1, S>>);
 
 /// Angular velocities, each in its body's frame, and that of the first body's mass centre.
 pub(crate) type Velocity<S = f64> = AlgebraOver<Configuration, S>;
@@ -26,17 +31,13 @@ pub(crate) type Momentum<S = f64> = DualOver<Configuration, S>;
 /// and steps cost time and memory in proportion to the bodies.
 ///
 /// ```
-/// use articulated_fluid::{ArticulatedBody, Body, Joint};
+/// use articulated_fluid::{ArticulatedBody, Body, Joint, JointKind};
 /// use lie::{Mat3, Vec3};
 ///
 /// let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
 /// // A chain: each body on the one before.
-/// let joint = |child: usize| Joint {
-///     parent: child - 1,
-///     child,
-///     at_parent: Vec3([0.6, 0.0, 0.0]),
-///     at_child: Vec3([-0.6, 0.0, 0.0]),
-/// };
+/// let points = [Vec3([0.6, 0.0, 0.0]), Vec3([-0.6, 0.0, 0.0])];
+/// let joint = |child: usize| Joint::new([child - 1, child], points, JointKind::Ball);
 /// let eel = ArticulatedBody::new(&[body; 30], &(1..30).map(joint).collect::<Vec<_>>())?;
 /// assert_eq!(eel.bodies().len(), 30);
 /// # Ok::<(), articulated_fluid::ModelError>(())
@@ -48,6 +49,34 @@ pub struct ArticulatedBody {
     /// A parent stands before its children.
     pub(crate) nodes: Vec<Node>,
     pub(crate) loads: Loads,
+    pub(crate) base: Base,
+    pub(crate) hinges: Vec<Hinge>,
+    pub(crate) motions: Vec<Motion>,
+    /// The bodies whose attitudes are unknowns.
+    pub(crate) roots: Vec<usize>,
+}
+
+/// What the first body hangs on.
+#[derive(Clone, Debug)]
+pub(crate) enum Base {
+    Free,
+    /// On the world, by a joint whose place $x_J$ may move.
+    Held {
+        kind: JointKind,
+        place: Arc<dyn Law<3>>,
+    },
+}
+
+impl PartialEq for Base {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Free, Self::Free) => true,
+            (Self::Held { kind, place }, Self::Held { kind: k, place: p }) => {
+                kind == k && Arc::ptr_eq(place, p)
+            }
+            _ => false,
+        }
+    }
 }
 
 impl ArticulatedBody {
@@ -56,6 +85,30 @@ impl ArticulatedBody {
     /// # Errors
     /// [`ModelError`] where a matrix is not symmetric and positive definite, or the joints do not make a tree.
     pub fn new(bodies: &[Body], joints: &[Joint]) -> Result<Self, ModelError> {
+        Self::on(Base::Free, Vec3::zero(), bodies, joints)
+    }
+
+    /// The same with the first body on the world, by a joint of this kind at the point `at_child` of the body, m in its frame.
+    ///
+    /// The joint is at the place that the law gives, m in the reference frame. Then linear and angular momentum are not kept.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn held(
+        bodies: &[Body],
+        joints: &[Joint],
+        (at_child, kind): (Vec3, JointKind),
+        place: Arc<dyn Law<3>>,
+    ) -> Result<Self, ModelError> {
+        Self::on(Base::Held { kind, place }, at_child, bodies, joints)
+    }
+
+    fn on(
+        base: Base,
+        at_child: Vec3,
+        bodies: &[Body],
+        joints: &[Joint],
+    ) -> Result<Self, ModelError> {
         if bodies.is_empty() {
             return Err(ModelError::NoBody);
         }
@@ -64,24 +117,87 @@ impl ArticulatedBody {
             definite(index, "inertia", &body.inertia)?;
         }
         let joints = in_order(joints, bodies.len())?;
-        let mut nodes: Vec<Node> = Vec::with_capacity(bodies.len());
-        for (body, joint) in bodies
-            .iter()
-            .zip(core::iter::once(None).chain(joints.into_iter().map(Some)))
-        {
-            let on = joint.map_or(Vec3::zero(), |joint| nodes[joint.parent].at_self);
-            nodes.push(Node::new(body, joint, on));
+        let first = match &base {
+            Base::Free => &JointKind::Ball,
+            Base::Held { kind, .. } => kind,
+        };
+        let mut made = Self {
+            masses: bodies.iter().map(|body| body.mass).collect(),
+            nodes: Vec::with_capacity(bodies.len()),
+            loads: Loads::default(),
+            hinges: vec![],
+            motions: vec![],
+            roots: vec![],
+            base: base.clone(),
+        };
+        made.hang(&bodies[0], (0, [Vec3::zero(), at_child]), first)?;
+        for (body, joint) in bodies[1..].iter().zip(&joints) {
+            let points = [joint.at_parent, joint.at_child];
+            made.hang(body, (joint.parent, points), &joint.kind)?;
         }
-        mark(&mut nodes);
-        let mut made = nodes.iter().zip(bodies);
-        match made.position(|(node, body)| !is_finite(node, &body.mass)) {
+        mark(&mut made.nodes);
+        let mut nodes = made.nodes.iter().zip(bodies);
+        match nodes.position(|(node, body)| !is_finite(node, &body.mass)) {
             Some(body) => Err(ModelError::OutOfRange { body }),
-            None => Ok(Self {
-                masses: bodies.iter().map(|body| body.mass).collect(),
-                nodes,
-                loads: Loads::default(),
-            }),
+            None => Ok(made),
         }
+    }
+
+    /// Hangs the next body on its parent.
+    fn hang(
+        &mut self,
+        body: &Body,
+        (parent, points): (usize, [Vec3; 2]),
+        kind: &JointKind,
+    ) -> Result<(), ModelError> {
+        let index = self.nodes.len();
+        let role = match kind {
+            JointKind::Ball => {
+                self.roots.push(index);
+                Role::Ball(self.roots.len() - 1)
+            }
+            JointKind::Hinge(hinge) => {
+                if (hinge.axis.norm() - 1.0).abs() > 1e-12 || !hinge.rest_angle.is_finite() {
+                    return Err(ModelError::Hinge { body: index });
+                }
+                self.hinges.push(*hinge);
+                Role::Hinge(self.hinges.len() - 1)
+            }
+            JointKind::Prescribed(motion) => {
+                self.motions.push(motion.clone());
+                Role::Prescribed(self.motions.len() - 1)
+            }
+        };
+        let on = self.nodes.get(parent).map_or(Vec3::zero(), |p| p.at_self);
+        self.nodes.push(Node::new(body, (parent, points), on, role));
+        Ok(())
+    }
+
+    /// Whether a body hangs by another joint than a ball.
+    #[inline(always)]
+    pub(crate) fn has_inner(&self) -> bool {
+        self.roots.len() != self.nodes.len()
+    }
+
+    /// Whether the first body is on nothing.
+    #[inline(always)]
+    pub(crate) fn is_free(&self) -> bool {
+        matches!(self.base, Base::Free)
+    }
+
+    /// Whether it is a tree of the paper's kind: on ball joints, with a free base.
+    #[inline(always)]
+    pub(crate) fn is_simple(&self) -> bool {
+        !self.has_inner() && self.is_free()
+    }
+
+    /// Whether a joint or a place moves as told.
+    pub(crate) fn moves_as_told(&self) -> bool {
+        let carried = match &self.base {
+            Base::Free => false,
+            Base::Held { place, .. } => !place.is_constant(),
+        };
+        carried || self.motions.iter().any(Motion::is_driven)
     }
 
     /// The same bodies under gravity: on each acts its net mass, that of the body less that of the displaced fluid, kg, times
@@ -105,19 +221,21 @@ impl ArticulatedBody {
     /// The same bodies on elastic joints, at rest where the frames of body and parent are aligned: the potential of a joint is
     /// $k (1 - \cos\theta)$ with the angle $\theta$ between these and the stiffness $k \ge 0$, N m; zero is a free joint.
     ///
-    /// The stiffnesses are in the order of [`joints`](Self::joints).
+    /// Of a hinge it is $\frac12 k (q - q_0)^2$ of its angle, $k$ in N m/rad. The stiffnesses are in the order of [`joints`](Self::joints),
+    /// before them that of the joint to the world, if there is one.
     ///
     /// # Errors
-    /// [`ModelError::Stiffnesses`] where there is not one for each joint; [`ModelError::Stiffness`] where one is negative or not finite.
+    /// [`ModelError::Stiffnesses`] where there is not one for each joint; [`ModelError::Stiffness`] where one is negative or not finite;
+    /// [`ModelError::Spring`] where a joint leaves nothing free.
     ///
     /// ```
-    /// use articulated_fluid::{ArticulatedBody, Body, Joint};
+    /// use articulated_fluid::{ArticulatedBody, Body, Joint, JointKind};
     /// use dvi::State;
     /// use lie::{LieGroup, Mat3, SO3, Tangent, Vec3};
     ///
     /// let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
     /// let (at_parent, at_child) = (Vec3([0.6, 0.0, 0.0]), Vec3([-0.6, 0.0, 0.0]));
-    /// let pair = ArticulatedBody::new(&[body; 2], &[Joint { parent: 0, child: 1, at_parent, at_child }])?;
+    /// let pair = ArticulatedBody::new(&[body; 2], &[Joint::new([0, 1], [at_parent, at_child], JointKind::Ball)])?;
     /// let elastic = pair.with_stiffness(&[5.0])?;
     /// let mut g = elastic.aligned();
     /// g.0[1] = SO3::exp(&Tangent([0.0, 0.0, 0.3]));
@@ -127,18 +245,36 @@ impl ArticulatedBody {
     /// # Ok::<(), articulated_fluid::ModelError>(())
     /// ```
     pub fn with_stiffness(mut self, stiffnesses: &[f64]) -> Result<Self, ModelError> {
-        let (expected, found) = (self.nodes.len() - 1, stiffnesses.len());
+        let first = usize::from(self.is_free());
+        let (expected, found) = (self.nodes.len() - first, stiffnesses.len());
         if expected != found {
             return Err(ModelError::Stiffnesses { expected, found });
         }
-        let sound = |k: &f64| k.is_finite() && *k >= 0.0;
-        if let Some(joint) = stiffnesses.iter().position(|k| !sound(k)) {
-            return Err(ModelError::Stiffness {
-                body: joint + 1,
-                stiffness: stiffnesses[joint],
-            });
+        let (mut of_balls, mut of_hinges) = (vec![], vec![]);
+        for (child, stiffness) in (first..).zip(stiffnesses.iter().copied()) {
+            if !(stiffness.is_finite() && stiffness >= 0.0) {
+                let body = child;
+                return Err(ModelError::Stiffness { body, stiffness });
+            }
+            if stiffness == 0.0 {
+                continue;
+            }
+            match self.nodes[child].role {
+                Role::Ball(_) => of_balls.push(Spring {
+                    parent: (child > 0).then(|| self.nodes[child].parent),
+                    child,
+                    stiffness,
+                }),
+                Role::Hinge(hinge) => of_hinges.push(HingeSpring {
+                    hinge,
+                    stiffness,
+                    rest: self.hinges[hinge].rest_angle,
+                }),
+                Role::Prescribed(_) => return Err(ModelError::Spring { body: child }),
+            }
         }
-        self.loads.springs = Springs::new(stiffnesses, &self.nodes);
+        self.loads.springs = Springs::new(of_balls);
+        self.loads.hinge_springs = HingeSprings::new(of_hinges);
         Ok(self)
     }
 
@@ -172,29 +308,40 @@ impl ArticulatedBody {
             child,
             at_parent: node.at_parent,
             at_child: node.at_self,
+            kind: self.kind(node.role),
         })
     }
 
-    /// The aligned configuration: all attitudes the identity, the first body at the origin.
+    fn kind(&self, role: Role) -> JointKind {
+        match role {
+            Role::Ball(_) => JointKind::Ball,
+            Role::Hinge(k) => JointKind::Hinge(self.hinges[k]),
+            Role::Prescribed(k) => JointKind::Prescribed(self.motions[k].clone()),
+        }
+    }
+
+    /// The aligned configuration: all attitudes the identity, the first body at the origin, hinges at the angle 0.
     pub fn aligned(&self) -> Configuration {
         (
-            Power::new(vec![SO3::identity(); self.nodes.len()]),
-            Power::new(vec![R3::identity()]),
+            Power::new(vec![SO3::identity(); self.roots.len()]),
+            Power::new(vec![R3::identity(); usize::from(self.is_free())]),
+            Power::new(vec![Rn([0.0]); self.hinges.len()]),
         )
     }
 
     /// The coordinates of $x$.
     pub(crate) fn translation(&self) -> Range<usize> {
-        let first = 3 * self.nodes.len();
-        first..first + 3
+        let first = 3 * self.roots.len();
+        first..first + 3 * usize::from(self.is_free())
     }
 
-    /// Whether a configuration or a momentum has a rotation for each body and one translation.
-    pub(crate) fn has_shape_of<R, X>(
+    /// Whether a configuration or a momentum has what the joints and the base leave free.
+    pub(crate) fn has_shape_of<R, X, Q>(
         &self,
-        (rotations, translations): &(Power<R>, Power<X>),
+        (rotations, translations, angles): &(Power<R>, Power<X>, Power<Q>),
     ) -> bool {
-        (rotations.len(), translations.len()) == (self.nodes.len(), 1)
+        let found = [rotations.len(), translations.len(), angles.len()];
+        found == [self.roots.len(), usize::from(self.is_free()), self.hinges.len()]
     }
 }
 

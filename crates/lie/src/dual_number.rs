@@ -1,5 +1,6 @@
 //! Dual numbers: a value and its derivatives along a fixed number of directions.
 
+use core::array::from_fn;
 use core::ops::{
     Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
 };
@@ -187,6 +188,11 @@ impl<T: Scalar> Scalar for DualNumber<T> {
         Self::new(self.value.atan2(x.value), |d| {
             a * self.partials[d] - b * x.partials[d]
         })
+    }
+    fn smooth<const N: usize>(self, f: &dyn Fn(f64, u32) -> [f64; N]) -> [Self; N] {
+        let slopes = self.value.smooth(&|x, k| f(x, k + 1));
+        let values = self.value.smooth(f);
+        from_fn(|i| self.chain(values[i], slopes[i]))
     }
     #[inline(always)]
     fn less(self, rhs: Self) -> T::Mask {

@@ -48,6 +48,10 @@ macro_rules! float {
                 $float::atan2(self, x)
             }
             #[inline(always)]
+            fn smooth<const N: usize>(self, f: &dyn Fn(f64, u32) -> [f64; N]) -> [Self; N] {
+                f(self as f64, 0).map(|y| y as $float)
+            }
+            #[inline(always)]
             fn less(self, rhs: Self) -> bool {
                 self < rhs
             }

@@ -117,6 +117,20 @@ pub trait Scalar:
     /// The angle of the point `(x, self)` in the plane, in $(-\pi, \pi]$.
     fn atan2(self, x: Self) -> Self;
 
+    /// The values here of smooth functions of one real variable, known by their derivatives: `f(x, k)` gives the $k$-th ones at $x$.
+    ///
+    /// What a formula over scalars cannot say, such as a spline through measured points, is lifted so to dual numbers and lanes.
+    ///
+    /// ```
+    /// use lie::{Jet, Scalar};
+    ///
+    /// let sine = |x: f64, k: u32| [(x + f64::from(k) * std::f64::consts::FRAC_PI_2).sin()];
+    /// let [y] = <f64 as Scalar>::Jet::variable(0.5, 0).smooth(&sine);
+    /// assert_eq!(y.value(), 0.5_f64.sin());
+    /// assert!((y.partial(0) - 0.5_f64.cos()).abs() < 1e-15);
+    /// ```
+    fn smooth<const N: usize>(self, f: &dyn Fn(f64, u32) -> [f64; N]) -> [Self; N];
+
     /// Whether `self < rhs`, by the real parts.
     fn less(self, rhs: Self) -> Self::Mask;
 

@@ -62,7 +62,8 @@ fn chain(n: usize) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn st
         child,
         at_parent: Vec3([5.5, 0.1, -0.05]),
         at_child: Vec3([-5.5, 0.05, 0.1]),
-    };
+            kind: Default::default(),
+        };
     let bodies: Vec<_> = (0..n).map(body).collect();
     let joints: Vec<_> = (1..n).map(joint).collect();
     let model = ArticulatedBody::new(&bodies, &joints)?;

@@ -14,7 +14,7 @@ pub(crate) struct Link<S> {
     /// $K$, and once eliminated $X = K H^{-1}$.
     pub(crate) x: Mat3<S>,
     /// $H$.
-    pub(super) h: Sym3<S>,
+    pub(crate) h: Sym3<S>,
     /// $H = L D L^T$, once eliminated.
     pub(crate) ldl: Ldl3<S>,
     /// $\varphi$, and once eliminated $f^\ast = \varphi - X r$.
@@ -60,6 +60,38 @@ impl<S: Scalar> Link<S> {
         self.mass += n;
         self.x += nl;
         self.h -= Sym3::hat_times(lever, &nl);
+    }
+
+    /// Adds all of the child's $\Lambda^\ast$ at the lever $l$, of which [`carry_mass`](Self::carry_mass) adds the mass.
+    ///
+    /// With the turned $N, K', H'$: $A$ gains $N$, $K$ gains $K' + N \hat l$, and $H$ gains $H' + K'^T \hat l - \hat l (K' + N \hat l)$.
+    #[inline(always)]
+    pub(crate) fn carry_inertia(&mut self, child: &Self, lever: Vec3<S>) {
+        let c = child.c;
+        let n = child.mass.turned(&c);
+        let k = c.conjugate(child.x);
+        let coupling = k + n.times_hat(lever);
+        self.mass += n;
+        self.x += coupling;
+        // K'^T l^ = -(l^ K')^T.
+        let turned = lever.hat() * k;
+        self.h += child.h.turned(&c) - Sym3::upper(&turned.transpose());
+        self.h -= Sym3::hat_times(lever, &coupling);
+    }
+
+    /// Adds the child's force and moment, at the lever $l$.
+    #[inline(always)]
+    pub(crate) fn carry_wrench(&mut self, child: &Self, lever: Vec3<S>) {
+        let force = child.c * child.force;
+        self.force += force;
+        self.w += child.c * child.w - lever.cross(force);
+    }
+
+    /// The force and the moment $(F, n)$ on the joint, from what the parent hands on and the velocity of the joint; not of a ball.
+    #[inline(always)]
+    pub(crate) fn wrench(&self, turning: Vec3<S>, u: Vec3<S>) -> (Vec3<S>, Vec3<S>) {
+        let force = self.mass * u - self.x * turning + self.force;
+        (force, self.h * turning - self.x.transpose_mul(u) - self.w)
     }
 
     /// Adds the child's force $C f^\ast$, at the lever $l$.

@@ -129,6 +129,9 @@ pub(crate) fn moments(masses: &[f64], nodes: &[Node]) -> (f64, Vec<Vec3>) {
         levers[node.parent] += node.at_parent * sums[i];
         levers[i] -= node.at_self * sums[i];
     }
+    if let (Some(node), Some(sum)) = (nodes.first(), sums.first()) {
+        levers[0] -= node.at_self * *sum;
+    }
     (sums.first().copied().unwrap_or(0.0), levers)
 }
 
@@ -139,6 +142,9 @@ fn moments_of_sizes(sizes: &[f64], nodes: &[Node]) -> (f64, Vec<f64>) {
         sums[node.parent] += sums[i];
         lengths[node.parent] += node.at_parent.norm() * sums[i];
         lengths[i] += node.at_self.norm() * sums[i];
+    }
+    if let (Some(node), Some(sum)) = (nodes.first(), sums.first()) {
+        lengths[0] += node.at_self.norm() * sum;
     }
     (sums.first().copied().unwrap_or(0.0), lengths)
 }

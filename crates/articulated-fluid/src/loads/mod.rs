@@ -1,11 +1,13 @@
 //! What acts on the bodies: each load a file, of what potential it has and what torques and force it gives.
 
 mod gravity;
+mod hinge_spring;
 mod spring;
 
-use lie::{Cotangent, SO3, Scalar, Vec3};
+use lie::{Cotangent, Power, Rn, SO3, Scalar, Vec3};
 
 pub(crate) use gravity::{Weight, moments};
+pub(crate) use hinge_spring::{HingeSpring, HingeSprings};
 pub(crate) use spring::{Spring, Springs};
 
 /// The loads of a tree of bodies.
@@ -13,6 +15,7 @@ pub(crate) use spring::{Spring, Springs};
 pub(crate) struct Loads {
     pub(crate) weight: Option<Weight>,
     pub(crate) springs: Option<Springs>,
+    pub(crate) hinge_springs: Option<HingeSprings>,
 }
 
 impl Loads {
@@ -37,6 +40,26 @@ impl Loads {
         }
         if let Some(springs) = &self.springs {
             springs.add_torques(r, scale, torques);
+        }
+    }
+
+    /// $U$, J, of what is in the hinges.
+    #[inline(always)]
+    pub(crate) fn potential_of_hinges<S: Scalar>(&self, q: &Power<Rn<1, S>>) -> S {
+        let springs = self.hinge_springs.as_ref();
+        springs.map_or(S::zero(), |springs| springs.potential(q))
+    }
+
+    /// Adds the torques about the axes of the hinges times `scale`, N m.
+    #[inline(always)]
+    pub(crate) fn add_to_hinges<S: Scalar>(
+        &self,
+        q: &Power<Rn<1, S>>,
+        scale: S,
+        torques: &mut Power<Cotangent<1, S>>,
+    ) {
+        if let Some(springs) = &self.hinge_springs {
+            springs.add_torques(q, scale, torques);
         }
     }
 

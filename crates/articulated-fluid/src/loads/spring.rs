@@ -7,9 +7,7 @@
 //! $C_i a_i = a_i$: the torque on the parent is $+k_i a_i$ in its own frame, and in space both cancel. With the rows $r_j$ and $p_j$ of
 //! $R_i$ and $R_p$, $C_i = \sum_j p_j r_j^T$ and $-a_i = \frac12 \sum_j p_j \times r_j$.
 
-use lie::{Cotangent, SO3, Scalar, Vec3};
-
-use crate::node::Node;
+use lie::{Cotangent, Mat3, SO3, Scalar, Vec3};
 
 /// The joints that are elastic.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,22 +16,16 @@ pub(crate) struct Springs(Vec<Spring>);
 /// An elastic joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spring {
-    pub(crate) parent: usize,
+    /// None for the world.
+    pub(crate) parent: Option<usize>,
     pub(crate) child: usize,
     /// $k_i$, N m.
     pub(crate) stiffness: f64,
 }
 
 impl Springs {
-    /// Of the stiffnesses of the joints, in the order of the bodies that hang on them; none where all are zero.
-    pub(crate) fn new(stiffnesses: &[f64], nodes: &[Node]) -> Option<Self> {
-        let tails = nodes.iter().enumerate().skip(1).zip(stiffnesses);
-        let spring = |((child, node), stiffness): ((usize, &Node), &f64)| Spring {
-            parent: node.parent,
-            child,
-            stiffness: *stiffness,
-        };
-        let elastic: Vec<_> = tails.map(spring).filter(|s| s.stiffness != 0.0).collect();
+    /// Those that are elastic; none where none is.
+    pub(crate) fn new(elastic: Vec<Spring>) -> Option<Self> {
         (!elastic.is_empty()).then_some(Self(elastic))
     }
 
@@ -53,8 +45,10 @@ impl Springs {
             let torque = spring.torque(r) * scale;
             let on_child = &mut torques[spring.child];
             *on_child = (on_child.vec3() + torque).into();
-            let on_parent = &mut torques[spring.parent];
-            *on_parent = (on_parent.vec3() - torque).into();
+            if let Some(parent) = spring.parent {
+                let on_parent = &mut torques[parent];
+                *on_parent = (on_parent.vec3() - torque).into();
+            }
         }
     }
 
@@ -67,10 +61,19 @@ impl Springs {
 }
 
 impl Spring {
+    /// The attitude of the parent.
+    #[inline(always)]
+    fn on<S: Scalar>(&self, r: &[SO3<S>]) -> Mat3<S> {
+        match self.parent {
+            Some(parent) => *r[parent].matrix(),
+            None => Mat3::identity(),
+        }
+    }
+
     /// The torque on the child, $-k_i a_i$, N m, in its frame.
     #[inline(always)]
     pub(crate) fn torque<S: Scalar>(&self, r: &[SO3<S>]) -> Vec3<S> {
-        let (p, r) = (r[self.parent].matrix(), r[self.child].matrix());
+        let (p, r) = (self.on(r), r[self.child].matrix());
         let moment = |j: usize| p.row(j).cross(r.row(j));
         (moment(0) + moment(1) + moment(2)) * S::from_f64(0.5 * self.stiffness)
     }
@@ -78,7 +81,7 @@ impl Spring {
     /// By the difference of the attitudes: the trace would lose the digits of a small angle.
     #[inline(always)]
     fn potential<S: Scalar>(&self, r: &[SO3<S>]) -> S {
-        let (p, r) = (r[self.parent].matrix(), r[self.child].matrix());
+        let (p, r) = (self.on(r), r[self.child].matrix());
         let square = |j: usize| (r.row(j) - p.row(j)).norm_squared();
         (square(0) + square(1) + square(2)).times(0.25 * self.stiffness)
     }

@@ -48,7 +48,7 @@ impl NotPlanar {
             ..
         } = self;
         let of = match what {
-            NotPlanarCause::State => return format!("no motion in a coordinate plane: {what}"),
+            NotPlanarCause::State | NotPlanarCause::Joint => return format!("no motion in a coordinate plane: {what}"),
             NotPlanarCause::VelocityOffPlane | NotPlanarCause::GravityOffPlane => String::new(),
             _ => format!(" ({body})"),
         };
@@ -87,6 +87,9 @@ pub enum NotPlanarCause {
     /// The normal has not one direction in the frames of both bodies of an elastic joint, which aligns these at rest.
     #[error("an elastic joint turns a body out of the plane")]
     SpringOffPlane,
+    /// A joint is not a ball, or the base is held.
+    #[error("only a free tree on ball joints is stepped in a plane")]
+    Joint,
     /// The state is not one of the model, or has a number that is not finite.
     #[error("the state does not fit the model (another number of bodies?) or is not finite")]
     State,

@@ -33,6 +33,12 @@ pub(super) fn normal(
     model: &ArticulatedBody,
     state: &State<Configuration>,
 ) -> Result<Vec3, NotPlanar> {
+    if !model.is_simple() {
+        return Err(NotPlanar {
+            what: NotPlanarCause::Joint,
+            ..not_a_state()
+        });
+    }
     let motion = Motion::new(model, state)?;
     let [x, y, z] = Mat3::identity().0.map(Vec3);
     let judged = [z, y, x].into_iter().map(|n| (n, motion.judge(n)));
@@ -215,7 +221,8 @@ impl<'a> Motion<'a> {
 
     /// How far apart the normals in the frames of both bodies are, which the joint aligns at rest.
     fn spring_off_plane(&self, spring: &Spring, n: Vec3) -> f64 {
-        (self.axis(spring.child, n) - self.axis(spring.parent, n)).norm()
+        let parent = spring.parent.unwrap_or(spring.child);
+        (self.axis(spring.child, n) - self.axis(parent, n)).norm()
     }
 
     /// The largest part of a $\dot p_i$ perpendicular to the normal, N m.

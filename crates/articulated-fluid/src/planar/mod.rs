@@ -14,13 +14,13 @@
 //!
 //! ```
 //! use articulated_fluid::planar::Plane;
-//! use articulated_fluid::{ArticulatedBody, Body, Joint, Viewed};
+//! use articulated_fluid::{ArticulatedBody, Body, Joint, JointKind, Viewed};
 //! use dvi::{Integrator, Lagrangian, Variational};
 //! use lie::{Mat3, Power, Tangent, Vec3};
 //!
 //! let body = Body { mass: Mat3::diagonal([1.0, 2.0, 3.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.3]) };
 //! let (at_parent, at_child) = (Vec3([-0.6, 0.0, 0.0]), Vec3([0.6, 0.0, 0.0]));
-//! let fish = ArticulatedBody::new(&[body; 2], &[Joint { parent: 0, child: 1, at_parent, at_child }])?;
+//! let fish = ArticulatedBody::new(&[body; 2], &[Joint::new([0, 1], [at_parent, at_child], JointKind::Ball)])?;
 //! // The tail beats about z.
 //! let beat = Power::new(vec![Tangent::zero(), Tangent([0.0, 0.0, 1.0])]);
 //! let ahead = Power::new(vec![Tangent([0.3, 0.0, 0.0])]);

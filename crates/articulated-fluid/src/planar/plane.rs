@@ -86,6 +86,7 @@ impl Plane {
         let g: Configuration = (
             Power::new(vec![SO3::identity(); n]),
             Power::new(vec![Rn::identity()]),
+            Power::new(vec![]),
         );
         let mu = g.zero_dual();
         let mut state = State { t: planar.t, g, mu };
@@ -108,10 +109,10 @@ impl Plane {
 
     /// Whether a state is one of this plane, exactly: of as many bodies, and with no part out of the plane.
     pub fn contains(&self, state: &State<Configuration>) -> bool {
-        let ((r, x), (p, px)) = (&state.g, &state.mu);
+        let ((r, x, q), (p, px, _)) = (&state.g, &state.mu);
         let normal = self.world.normal;
         let n = self.bodies.len();
-        if [r.len(), x.len(), p.len(), px.len()] != [n, 1, n, 1] {
+        if [r.len(), x.len(), p.len(), px.len(), q.len()] != [n, 1, n, 1, 0] {
             return false;
         }
         let keeps = |(body, r): (&Frame, &SO3)| {
@@ -158,13 +159,16 @@ impl Plane {
     /// $\alpha_i$ is the angle of $N_p^T N_i$.
     fn springs(&self, model: &ArticulatedBody) -> Option<Springs> {
         let elastic = model.loads.springs.as_ref()?.iter();
-        let spring = |spring: &loads::Spring| Spring {
-            parent: spring.parent,
-            child: spring.child,
-            stiffness: spring.stiffness,
-            rest: self.bodies[spring.parent].angle_of(&SO3::identity(), &self.bodies[spring.child]),
+        let spring = |spring: &loads::Spring| {
+            let (parent, child) = (spring.parent?, spring.child);
+            Some(Spring {
+                parent,
+                child,
+                stiffness: spring.stiffness,
+                rest: self.bodies[parent].angle_of(&SO3::identity(), &self.bodies[child]),
+            })
         };
-        Some(Springs(elastic.map(spring).collect()))
+        Some(Springs(elastic.filter_map(spring).collect()))
     }
 }
 

@@ -50,6 +50,9 @@ fn name<'a>(table: &Table<'a>, earlier: &Names) -> Result<Name<'a>, SceneError> 
     if text.is_empty() || !text.chars().all(allowed) {
         return Err(value.wrong(&format!("is {text:?}")));
     }
+    if text == super::joints::WORLD {
+        return Err(value.wrong("\"world\" is what the first body may hang on"));
+    }
     match earlier.index.get(text) {
         Some(other) => {
             let line = earlier.listed[*other].value.line();

@@ -4,6 +4,8 @@ use lie::Mat3;
 
 use super::note::Note;
 use crate::ellipsoid::Ellipsoid;
+use crate::joints::JointKind;
+use crate::motion::Sinusoid;
 
 /// A difference of mass and displaced mass that is the rounding of density times volume and of the numbers read, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -19,6 +21,8 @@ pub struct Scene {
     pub density: f64,
     /// The bodies, at least one; the first is the head, and each comes after its parent.
     pub bodies: Vec<SceneBody>,
+    /// What the first body hangs on; without it, the body is free.
+    pub mount: Option<SceneMount>,
     /// The joints: one for each body but the head.
     pub joints: Vec<SceneJoint>,
     /// Initial position of the head's mass centre in the reference frame, m.
@@ -36,6 +40,8 @@ pub enum StartVelocity {
     Given([f64; 3]),
     /// The one for which the total linear momentum vanishes.
     ZeroMomentum,
+    /// Linear and angular momentum vanish: the head's angular velocity follows too, and the rates of the others are relative to it.
+    NoMomentum,
 }
 
 /// A rigid body of a [`Scene`].
@@ -132,9 +138,11 @@ pub enum Form {
     },
 }
 
-/// A ball joint of a [`Scene`].
+/// A joint of a [`Scene`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneJoint {
+    /// Name: that of the child where no other is given.
+    pub name: String,
     /// Index of the parent in [`Scene::bodies`], before the child.
     pub parent: usize,
     /// Index of the child in [`Scene::bodies`].
@@ -143,6 +151,45 @@ pub struct SceneJoint {
     pub at_parent: [f64; 3],
     /// The joint from the child's mass centre, in the child's frame, m.
     pub at_child: [f64; 3],
-    /// Stiffness $k \ge 0$ against turns from where both bodies' frames are aligned, N m; 0 for a free joint.
+    /// What it leaves free.
+    pub mobility: Mobility,
+}
+
+/// The joint of the first body to the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneMount {
+    /// Name: that of the child where no other is given.
+    pub name: String,
+    /// Where the joint is, m in the reference frame.
+    pub place: Sinusoid<3>,
+    /// The joint from the body's mass centre, in its frame, m.
+    pub at_child: [f64; 3],
+    /// What it leaves free.
+    pub mobility: Mobility,
+}
+
+/// What a joint leaves free, where that starts, and the spring against it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mobility {
+    /// What it leaves free.
+    pub kind: JointKind,
+    /// The angle of a hinge at the start, rad.
+    pub angle: f64,
+    /// Its rate at the start, rad/s.
+    pub rate: f64,
+    /// Stiffness $k \ge 0$; 0 for a free joint. Of a ball against turns from where both bodies' frames are aligned, N m; of a hinge N m/rad.
     pub stiffness: f64,
+}
+
+impl Scene {
+    /// What the joint of body `i` leaves free; `None` of a free base.
+    pub(crate) fn mobility(&self, i: usize) -> Option<&Mobility> {
+        match i {
+            0 => self.mount.as_ref().map(|mount| &mount.mobility),
+            i => {
+                let joint = self.joints.iter().find(|joint| joint.child == i);
+                joint.map(|joint| &joint.mobility)
+            }
+        }
+    }
 }

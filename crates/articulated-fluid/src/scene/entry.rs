@@ -1,5 +1,7 @@
 //! Tables and values of a scene file. Each knows its key and its place, and so makes the errors about itself.
 
+use std::path::PathBuf;
+
 use toml::Spanned;
 use toml::de::{DeArray, DeFloat, DeInteger, DeTable, DeValue};
 
@@ -176,6 +178,16 @@ impl<'a> Value<'a> {
     /// The string that this is, if it is one.
     pub fn word(&self) -> Option<&'a str> {
         self.inner.as_str()
+    }
+
+    /// `true` or `false`.
+    pub fn boolean(&self) -> Result<bool, SceneError> {
+        self.inner.as_bool().ok_or_else(|| self.wrong_type())
+    }
+
+    /// The path that is named, from the folder of the scene.
+    pub fn beside_the_scene(&self) -> Result<PathBuf, SceneError> {
+        Ok(self.source.folder().join(self.text()?))
     }
 
     pub fn is_array(&self) -> bool {

@@ -1,10 +1,15 @@
 //! The joints of a scene: a tree with the first body as its root.
 
 use super::bodies::Names;
-use super::description::SceneJoint;
+use super::description::{SceneJoint, SceneMount};
 use super::entry::{Table, Value};
 use super::error::SceneError;
+use super::laws::{self, Gaits};
+use super::mobility;
 use super::source::quote;
+
+/// The parent of a first body that is not free.
+pub(super) const WORLD: &str = "world";
 
 /// A joint, and where it names its bodies.
 struct Named<'a> {
@@ -13,9 +18,33 @@ struct Named<'a> {
     child: Value<'a>,
 }
 
-/// The joints between the bodies of these `names`.
-pub(super) fn check(tables: &[Table], names: &Names) -> Result<Vec<SceneJoint>, SceneError> {
-    let joints = tables.iter().map(|table| joint(table, names));
+/// What is told of the joints apart from their tables.
+struct Told<'a, 'b> {
+    names: &'b Names<'a>,
+    gaits: Gaits<'a>,
+}
+
+/// The joints between the bodies of these `names`, the one of the first body to the world apart.
+pub(super) fn check<'a>(
+    tables: &[Table<'a>],
+    gaits: &[Table<'a>],
+    names: &Names<'a>,
+) -> Result<(Option<SceneMount>, Vec<SceneJoint>), SceneError> {
+    let own: Vec<&str> = tables.iter().map(name).collect::<Result<_, _>>()?;
+    unique(tables, &own)?;
+    let gaits = laws::gaits(gaits, &own)?;
+    let told = Told { names, gaits };
+    let mounts = |table: &Table| table.get("parent").is_some_and(|p| p.word() == Some(WORLD));
+    let mut mount = None;
+    for table in tables.iter().filter(|table| mounts(table)) {
+        if mount.is_some() {
+            let what = "the first body is on the world already; expected one joint for each body";
+            return Err(table.require("parent")?.fail(what));
+        }
+        mount = Some(on_world(table, &told)?);
+    }
+    let others = tables.iter().filter(|table| !mounts(table));
+    let joints = others.map(|table| joint(table, &told));
     let joints = joints.collect::<Result<Vec<_>, _>>()?;
     let parents = parents(&joints, names)?;
     if let Some(named) = joints
@@ -25,11 +54,58 @@ pub(super) fn check(tables: &[Table], names: &Names) -> Result<Vec<SceneJoint>, 
         return Err(out_of_order(named, &parents, names));
     }
     every_other_body_hangs(&parents, names)?;
-    Ok(joints.into_iter().map(|named| named.joint).collect())
+    Ok((mount, joints.into_iter().map(|named| named.joint).collect()))
 }
 
-fn joint<'a>(table: &Table<'a>, names: &Names) -> Result<Named<'a>, SceneError> {
+/// A joint's own name, or its child's.
+fn name<'a>(table: &Table<'a>) -> Result<&'a str, SceneError> {
+    match table.get("name") {
+        Some(name) => name.text(),
+        None => table.require("child")?.text(),
+    }
+}
+
+fn unique(tables: &[Table], names: &[&str]) -> Result<(), SceneError> {
+    let mut seen = std::collections::HashSet::new();
+    for (table, name) in tables.iter().zip(names) {
+        // Two joints of one child are refused as such.
+        if let Some(value) = table.get("name")
+            && !seen.insert(*name)
+        {
+            return Err(value.wrong(&format!("{name:?} is another joint")));
+        }
+        seen.insert(*name);
+    }
+    Ok(())
+}
+
+/// The joint of the first body to the world.
+fn on_world(table: &Table, told: &Told) -> Result<SceneMount, SceneError> {
+    let child = table.require("child")?;
+    if index(&child, told.names)? != 0 {
+        let first = told.names.listed[0].text;
+        let what = format!("only the first body may hang on the world; expected {first:?}");
+        return Err(child.fail(&what));
+    }
+    let name = name(table)?;
+    Ok(SceneMount {
+        name: name.to_owned(),
+        place: mobility::place(table)?,
+        at_child: table.require("at_child")?.array()?,
+        mobility: mobility::read(table, told.gaits.get(name))?,
+    })
+}
+
+fn joint<'a>(table: &Table<'a>, told: &Told) -> Result<Named<'a>, SceneError> {
+    let names = told.names;
     let (parent_name, child_name) = (table.require("parent")?, table.require("child")?);
+    if child_name.word() == Some(WORLD) {
+        let what = "the world hangs on nothing; expected it as the parent of the first body";
+        return Err(child_name.fail(what));
+    }
+    if let Some(place) = table.get("place") {
+        return Err(place.fail("only a joint to the world has a place; expected parent = \"world\""));
+    }
     let (parent, child) = (index(&parent_name, names)?, index(&child_name, names)?);
     let text = child_name.text()?;
     if parent == child {
@@ -40,12 +116,14 @@ fn joint<'a>(table: &Table<'a>, names: &Names) -> Result<Named<'a>, SceneError> 
         let what = format!("{text:?} is the first body, on which the others hang");
         return Err(child_name.wrong(&what));
     }
+    let name = name(table)?;
     let joint = SceneJoint {
+        name: name.to_owned(),
         parent,
         child,
         at_parent: table.require("at_parent")?.array()?,
         at_child: table.require("at_child")?.array()?,
-        stiffness: table.read("stiffness", 0.0, Value::not_negative)?,
+        mobility: mobility::read(table, told.gaits.get(name))?,
     };
     Ok(Named {
         joint,

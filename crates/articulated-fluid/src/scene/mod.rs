@@ -25,16 +25,19 @@ mod error;
 mod forms;
 mod joints;
 mod keys;
+mod laws;
 mod matrices;
+mod mobility;
 mod note;
 mod overlap;
 mod rates;
 mod source;
+mod start;
 mod values;
 
 use std::path::Path;
 
-pub use description::{Form, Scene, SceneBody, SceneJoint, StartVelocity};
+pub use description::{Form, Mobility, Scene, SceneBody, SceneJoint, SceneMount, StartVelocity};
 pub use error::SceneError;
 pub use keys::{KEYS, Key, reference};
 pub use note::{Correction, Note};
@@ -112,29 +115,20 @@ fn read(root: &Table) -> Result<Scene, SceneError> {
         return Err(root.missing("body"));
     }
     let (names, mut bodies) = bodies::check(&tables, &around)?;
-    let joints = joints::check(&joints, &names)?;
-    rates::set(&tables, &joints, &mut bodies)?;
-    let (mut position, mut velocity) = ([0.0; 3], StartVelocity::Given([0.0; 3]));
-    if let Some(start) = start {
-        position = start.read("position", position, Value::array)?;
-        velocity = start.read("velocity", velocity, start_velocity)?;
-    }
+    let gaits = root.read("gait", vec![], Value::tables)?;
+    let (mount, joints) = joints::check(&joints, &gaits, &names)?;
+    let (position, velocity) = start::read(start.as_ref(), mount.as_ref())?;
+    let floats = velocity == StartVelocity::NoMomentum;
+    rates::set(&tables, (mount.as_ref(), &joints), floats, &mut bodies)?;
     Ok(Scene {
         title: title.map(str::to_owned),
         gravity,
         density,
         bodies,
+        mount,
         joints,
         position,
         velocity,
         notes: vec![],
     })
-}
-
-fn start_velocity(value: &Value) -> Result<StartVelocity, SceneError> {
-    match value.word() {
-        Some("zero-momentum") => Ok(StartVelocity::ZeroMomentum),
-        Some(word) => Err(value.unknown_word(word)),
-        None => value.array().map(StartVelocity::Given),
-    }
 }

@@ -1,6 +1,7 @@
 //! The text of a scene file: its syntax, and messages as `FILE:LINE:COLUMN: KEY: what is wrong`.
 
 use std::cell::RefCell;
+use std::path::Path;
 
 use toml::Spanned;
 use toml::de::DeTable;
@@ -25,6 +26,11 @@ impl<'a> Source<'a> {
             file,
             notes: RefCell::default(),
         }
+    }
+
+    /// Where the scene is.
+    pub fn folder(&self) -> &Path {
+        Path::new(self.file).parent().unwrap_or(Path::new(""))
     }
 
     /// Parses the TOML syntax.

@@ -6,6 +6,11 @@ use super::note::{Correction, PUBLISHED, ROUNDING};
 use super::source::quote;
 
 impl Value<'_> {
+    /// A number that is finite.
+    pub fn finite(&self) -> Result<f64, SceneError> {
+        self.number_that(|_| true)
+    }
+
     /// A number that is finite and > 0.
     pub fn positive(&self) -> Result<f64, SceneError> {
         self.number_that(|value| value > 0.0)

@@ -40,7 +40,7 @@ pub struct Drift {
 }
 
 impl Comoving {
-    /// The view of a model whose masses are the same in all directions, exactly.
+    /// The view of a free tree on ball joints whose masses are the same in all directions, exactly.
     ///
     /// ```
     /// use articulated_fluid::{ArticulatedBody, Body, Comoving};
@@ -53,6 +53,9 @@ impl Comoving {
     /// # Ok::<(), articulated_fluid::ModelError>(())
     /// ```
     pub fn new(model: &ArticulatedBody) -> Option<Self> {
+        if !model.is_simple() {
+            return None;
+        }
         let number = |m: &Mat3| (*m == Mat3::diagonal([m[(0, 0)]; 3])).then_some(m[(0, 0)]);
         let masses: Vec<f64> = model.masses.iter().map(number).collect::<Option<_>>()?;
         let (mass, levers) = moments(&masses, &model.nodes);

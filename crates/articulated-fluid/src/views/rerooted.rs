@@ -25,15 +25,15 @@ pub struct Rerooted {
 }
 
 impl Rerooted {
-    /// The view of a model whose first body is not the heaviest; of several that are, the first is taken.
+    /// The view of a free tree on ball joints whose first body is not the heaviest; of several that are, the first is taken.
     ///
     /// ```
-    /// use articulated_fluid::{ArticulatedBody, Body, Joint, Rerooted};
+    /// use articulated_fluid::{ArticulatedBody, Body, Joint, JointKind, Rerooted};
     /// use lie::{Mat3, Vec3};
     ///
     /// let body = |m: f64| Body { mass: Mat3::diagonal([m; 3]), inertia: Mat3::diagonal([0.1; 3]) };
     /// let (at_parent, at_child) = (Vec3([0.5, 0.0, 0.0]), Vec3([-2.0, 0.0, 0.0]));
-    /// let joints = [Joint { parent: 0, child: 1, at_parent, at_child }];
+    /// let joints = [Joint::new([0, 1], [at_parent, at_child], JointKind::Ball)];
     /// let view = Rerooted::new(&ArticulatedBody::new(&[body(1.0), body(9.0)], &joints)?).expect("a heavier one");
     /// assert_eq!(view.model().bodies().next(), Some(body(9.0)));
     /// # Ok::<(), articulated_fluid::ModelError>(())
@@ -42,7 +42,7 @@ impl Rerooted {
         let mass = |i: &usize| model.masses[*i].trace();
         let bodies = 1..model.nodes.len();
         let heaviest = bodies.fold(0, |best, i| if mass(&i) > mass(&best) { i } else { best });
-        (heaviest != 0).then(|| Self::on(model, heaviest)).flatten()
+        (heaviest != 0 && model.is_simple()).then(|| Self::on(model, heaviest)).flatten()
     }
 
     /// The view that hangs the tree on the body `root`; `None` where the numbers overflow there.
@@ -157,6 +157,7 @@ fn reordered(model: &ArticulatedBody, order: &[usize], path: usize) -> Option<Ar
                 child: parent,
                 at_parent: joint.at_child,
                 at_child: joint.at_parent,
+                kind: joint.kind,
             },
         }
     };

@@ -21,6 +21,9 @@ impl<L: System> System for ByDuals<L> {
     fn fits(&self, g: &L::Group) -> bool {
         self.0.fits(g)
     }
+    fn is_driven(&self) -> bool {
+        self.0.is_driven()
+    }
     fn is_symplectic(&self) -> bool {
         self.0.is_symplectic()
     }

@@ -64,8 +64,8 @@ proptest! {
         let size = norm(&mu);
         assert_close(&product(&inertia, &sample.xi.coordinates()), &mu, 1e-14 * size);
         let (mut work, mut xi) = (Default::default(), sample.xi.clone());
-        model.factorise(&model.aligned(), &mut work);
-        model.factorise(&sample.g, &mut work);
+        model.factorise(0.0, &model.aligned(), &mut work);
+        model.factorise(0.0, &sample.g, &mut work);
         // The factorisation outlives a solve.
         for _ in 0..2 {
             spoil(&mut xi);
@@ -304,7 +304,8 @@ fn buoy() -> (ArticulatedBody, State<Configuration>) {
         child,
         at_parent: Vec3(at_parent),
         at_child: Vec3([0.0, 0.1, 0.6]),
-    };
+            kind: Default::default(),
+        };
     let joints = [
         joint(0, 1, [0.1, 0.2, -0.4]),
         joint(1, 2, [0.0, 0.1, -0.5]),

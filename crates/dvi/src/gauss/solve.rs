@@ -269,11 +269,15 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         if last {
             difference.read(numbers);
             sizes.set_scales(&[&state.mu, &sweep.end.momentum]);
+            if sweep.is_driven() {
+                sizes.raise_scales(|kind| sweep.least_momentum(kind));
+            }
             in_block = sizes.relative_above(difference, noise);
         }
         let kinds = parts.iter().zip(wholes).enumerate();
         kinds.fold(OF_BLOCK * in_block, |found, (kind, (part, size))| {
-            larger(found, relative_beside(*part, *size, noise(kind)))
+            let size = larger(*size, sweep.least_momentum(kind));
+            larger(found, relative_beside(*part, size, noise(kind)))
         })
     }
 

@@ -140,6 +140,7 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     pub(super) kinds: Kinds,
     /// Made at the first step.
     weights: Option<Weights>,
+    driven: bool,
     change: Change<S>,
     /// What rounding makes of no change, in the rates of each kind; zero where that has not been looked at.
     noise: Vec<[f64; 2]>,
@@ -265,6 +266,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             shakes: 0,
             kinds,
             weights: None,
+            driven: false,
             rates: vec![S::zero(); dim],
         }
     }
@@ -599,6 +601,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         if self.weights.is_some() {
             return;
         }
+        self.driven = system.is_driven();
         let (kinds, mut sizes) = (self.kinds.clone(), vec![0.0; self.kinds.count]);
         kinds.raise(&mut sizes, &mu.coordinates());
         let mut moved = mu.clone();
@@ -628,14 +631,30 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
             self.find_rounding(h);
         }
         self.rounding_holds -= 1;
-        let kinds = self.change.of_all.iter().zip(&self.rounding);
-        let found = kinds.fold(0.0, |found, ([c, pi], rounding)| {
+        let kinds = self.change.of_all.iter().zip(&self.rounding).enumerate();
+        let found = kinds.fold(0.0, |found, (kind, ([c, pi], rounding))| {
             let c = relative_beside(c.change, c.size, rounding[0]);
-            let pi = relative_beside(pi.change * h.abs(), pi.size, rounding[1]);
+            let size = larger(pi.size, self.least_momentum(kind));
+            let pi = relative_beside(pi.change * h.abs(), size, rounding[1]);
             larger(found, larger(c, pi))
         });
         let poison = core::slice::from_ref(&self.change.poison);
         found + S::items(poison).iter().sum::<f64>()
+    }
+
+    pub(super) fn is_driven(&self) -> bool {
+        self.driven
+    }
+
+    /// What a momentum of a kind is to be compared with at least: where the system is driven, that of the velocities.
+    pub(super) fn least_momentum(&self, kind: usize) -> f64 {
+        match &self.weights {
+            Some(weights) if self.driven => {
+                let rates = self.change.of_all.iter().map(|[c, _]| c.size);
+                weights.momentum_of(rates, kind)
+            }
+            _ => 0.0,
+        }
     }
 
     pub(super) fn weights(&self) -> Option<&Weights> {

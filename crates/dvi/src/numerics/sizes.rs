@@ -79,6 +79,11 @@ impl Weights {
             momenta: Factors(halves().map(|half| power_of_two(-half)).collect()),
         })
     }
+
+    /// The momentum of a kind that velocities of these sizes, one for each kind, may have.
+    pub(crate) fn momentum_of(&self, velocities: impl Iterator<Item = f64>, kind: usize) -> f64 {
+        self.velocities.largest(velocities) / self.momenta.of(kind)
+    }
 }
 
 impl Factors {
@@ -185,6 +190,15 @@ impl Sizes {
         }
         self.scale = 0.0;
         for block in &mut self.blocks {
+            block.inverse_scale = 1.0 / block.scale;
+            self.scale = larger(self.scale, block.scale * block.weight);
+        }
+    }
+
+    /// Makes the scale of each block at least that of its kind.
+    pub(crate) fn raise_scales(&mut self, least: impl Fn(usize) -> f64) {
+        for block in &mut self.blocks {
+            block.scale = larger(block.scale, least(block.kind));
             block.inverse_scale = 1.0 / block.scale;
             self.scale = larger(self.scale, block.scale * block.weight);
         }

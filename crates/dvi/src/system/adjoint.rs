@@ -125,8 +125,8 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for Adjoint<L> {
         self.0.is_symmetric()
     }
 
-    fn factorise(&self, g: &L::Group, work: &mut AdjointWorkspace<L, f64>) {
-        self.0.factorise(g, &mut work.other);
+    fn factorise(&self, t: f64, g: &L::Group, work: &mut AdjointWorkspace<L, f64>) {
+        self.0.factorise(t, g, &mut work.other);
     }
     fn solve(
         &self,

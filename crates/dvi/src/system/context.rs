@@ -35,6 +35,13 @@ pub trait System {
         true
     }
 
+    /// Whether a part of the system moves as told, so that there are velocities without a momentum.
+    ///
+    /// Momenta are then compared with those of the velocities: their sum may be zero throughout.
+    fn is_driven(&self) -> bool {
+        false
+    }
+
     /// Whether the motion is that of a Lagrangian, so that the flow is symplectic; not so with a [force](crate::Forced).
     fn is_symplectic(&self) -> bool {
         true
@@ -68,6 +75,9 @@ impl<A: Adapter> System for A {
     }
     fn fits(&self, g: &Self::Group) -> bool {
         self.inner().fits(g)
+    }
+    fn is_driven(&self) -> bool {
+        self.inner().is_driven()
     }
     fn is_symplectic(&self) -> bool {
         A::STAYS_SYMPLECTIC && self.inner().is_symplectic()

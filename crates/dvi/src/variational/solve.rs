@@ -44,6 +44,7 @@ pub(super) struct Work<L: DiscreteLagrangian> {
     pub(super) balance: Balance<L, f64>,
     /// Of the coordinates that are not solved exactly: those may have another unit, and be larger by far.
     sizes: Sizes,
+    driven: Option<Driven>,
     pub(super) warm: WarmStart,
     pub(super) c: Algebra<L>,
     delta: Algebra<L>,
@@ -139,11 +140,22 @@ pub(super) fn is_rounding(residual: f64, tolerance: f64) -> bool {
     residual < ROUNDING.max(1e3 * tolerance)
 }
 
+/// What brings the velocities of a driven system to momenta.
+struct Driven {
+    weights: Weights,
+    kinds: Kinds,
+}
+
 impl<L: DiscreteLagrangian> Work<L> {
     pub(super) fn new(lagrangian: &L, (t, h): (f64, f64), g: &L::Group, keeps_all: bool) -> Self {
         let (c, matrix) = (g.zero_algebra(), Matrix::new(lagrangian, g, keeps_all));
         let weights = weights(lagrangian, (t, h), g);
+        let driven = weights.clone().filter(|_| lagrangian.is_driven());
         Self {
+            driven: driven.map(|weights| Driven {
+                weights,
+                kinds: Kinds::of(g),
+            }),
             balance: Balance::new(g),
             sizes: Sizes::new(
                 g,
@@ -268,7 +280,7 @@ impl<L: DiscreteLagrangian> Work<L> {
         for iterations in 1..=MAX_ITERATIONS {
             self.evaluate(lagrangian, state, h);
             if iterations == 1 {
-                self.set_scales(state);
+                self.set_scales((state, h));
             }
             let now = self.residual();
             let residual = now.overall;
@@ -359,7 +371,7 @@ impl<L: DiscreteLagrangian> Work<L> {
         }
         if self.sizes.have_no_scale() {
             // Only the cyclic coordinates have moved, and the others follow.
-            self.set_scales(state);
+            self.set_scales((state, h));
         }
         let now = self.residual();
         let holds = goal.is_reached(now) || now.overall <= 2.0 * found.overall;
@@ -369,7 +381,7 @@ impl<L: DiscreteLagrangian> Work<L> {
     /// The momenta in the balance as it is evaluated first: before the step, after it, and what a force adds to either.
     ///
     /// Not those at later iterates: where these go astray momenta grow, and any residual is small beside them.
-    fn set_scales(&mut self, state: &State<L::Group>) {
+    fn set_scales(&mut self, (state, h): (&State<L::Group>, f64)) {
         let Balance {
             transported,
             derivatives,
@@ -377,6 +389,14 @@ impl<L: DiscreteLagrangian> Work<L> {
         } = &self.balance;
         self.sizes
             .set_scales(&[&state.mu, transported, &derivatives.d_f]);
+        let Some(Driven { weights, kinds }) = &self.driven else {
+            return;
+        };
+        let mut velocities = vec![0.0; kinds.count];
+        kinds.raise(&mut velocities, &self.c.coordinates());
+        let rates = || velocities.iter().map(|c| c / h.abs());
+        self.sizes
+            .raise_scales(|kind| weights.momentum_of(rates(), kind));
     }
 
     /// The residual relative to the momenta.

@@ -218,6 +218,15 @@ impl<R: Register> Scalar for Lanes<R> {
     fn atan2(self, x: Self) -> Self {
         self.each(|i, y| y.atan2(x.numbers()[i]))
     }
+    fn smooth<const N: usize>(self, f: &dyn Fn(f64, u32) -> [f64; N]) -> [Self; N] {
+        let mut values = [self; N];
+        for (lane, x) in self.numbers().iter().enumerate() {
+            for (all, y) in values.iter_mut().zip(f(*x, 0)) {
+                *all = all.each(|i, old| if i == lane { y } else { old });
+            }
+        }
+        values
+    }
     #[inline(always)]
     fn less(self, rhs: Self) -> Self::Mask {
         R::token().less_than_f64s(self.0, rhs.0)

@@ -1,0 +1,25 @@
+//! Numbers over time.
+
+use core::fmt::Debug;
+
+use lie::Scalar;
+
+/// `N` smooth functions of time: angles in rad, rotation vectors in rad, or places in m.
+pub trait Law<const N: usize>: Debug + Send + Sync {
+    /// The `k`-th derivatives at `t` seconds, per second to the power of `k`; where one is not known, not a number.
+    fn derivative(&self, t: f64, k: u32) -> [f64; N];
+
+    /// Whether nothing moves.
+    fn is_constant(&self) -> bool {
+        false
+    }
+}
+
+/// The values of a law, and their rates.
+#[inline(always)]
+pub(crate) fn at<const N: usize, S: Scalar>(law: &dyn Law<N>, t: S) -> [[S; N]; 2] {
+    [
+        t.smooth(&|t, k| law.derivative(t, k)),
+        t.smooth(&|t, k| law.derivative(t, k + 1)),
+    ]
+}

@@ -1,0 +1,139 @@
+//! The attitudes of all bodies, from those that the configuration has: $R_i = R_p C_i$ outwards, (S1)–(S2).
+
+use lie::{SO3, Scalar, Vec3};
+
+use crate::joints::Role;
+use crate::motion;
+use crate::tree::{ArticulatedBody, Base, Configuration};
+
+/// Where the bodies are at a time, and what moves as told.
+#[derive(Clone, Debug)]
+pub(crate) struct Pose<S> {
+    /// The time that the motions were read at last.
+    read: Option<S>,
+    /// $R_i$; empty where the configuration has them all.
+    pub(crate) r: Vec<SO3<S>>,
+    /// $C_i = R_p^T R_i$ of hinges and motions.
+    pub(crate) c: Vec<SO3<S>>,
+    /// $a_i$ of motions, zero of the others.
+    pub(crate) rates: Vec<Vec3<S>>,
+    /// $x_J$ and $\dot x_J$ of a held base.
+    pub(crate) place: [Vec3<S>; 2],
+}
+
+impl<S: Scalar> Default for Pose<S> {
+    fn default() -> Self {
+        Self {
+            read: None,
+            r: Vec::new(),
+            c: Vec::new(),
+            rates: Vec::new(),
+            place: [Vec3::zero(); 2],
+        }
+    }
+}
+
+impl<S: Scalar> Pose<S> {
+    /// The rates of what moves as told.
+    #[inline(always)]
+    pub(crate) fn drive(&self) -> Drive<'_, S> {
+        Drive {
+            rates: &self.rates,
+            place: self.place[1],
+        }
+    }
+}
+
+/// What moves as told; at rest in the matrix of a step.
+#[derive(Clone, Copy)]
+pub(crate) struct Drive<'a, S> {
+    rates: &'a [Vec3<S>],
+    /// $\dot x_J$.
+    pub(crate) place: Vec3<S>,
+}
+
+impl<S: Scalar> Drive<'_, S> {
+    pub(crate) fn at_rest() -> Self {
+        Self {
+            rates: &[],
+            place: Vec3::zero(),
+        }
+    }
+
+    /// $a_i$.
+    #[inline(always)]
+    pub(crate) fn rate(&self, i: usize) -> Vec3<S> {
+        self.rates.get(i).copied().unwrap_or(Vec3::zero())
+    }
+}
+
+impl ArticulatedBody {
+    /// The attitudes of all bodies at the time `t`.
+    #[inline(always)]
+    pub(crate) fn pose<'a, S: Scalar>(
+        &self,
+        t: S,
+        g: &'a Configuration<S>,
+        pose: &'a mut Pose<S>,
+    ) -> (&'a [SO3<S>], &'a Pose<S>) {
+        if self.is_simple() {
+            return (&g.0, pose);
+        }
+        self.read_motions_at(t, pose);
+        if !self.has_inner() {
+            return (&g.0, pose);
+        }
+        for (i, node) in self.nodes.iter().enumerate() {
+            match node.role {
+                Role::Ball(k) => {
+                    pose.r[i] = g.0[k];
+                    continue;
+                }
+                Role::Hinge(k) => pose.c[i] = self.hinges[k].relative(g.2[k].0[0]),
+                Role::Prescribed(_) => {}
+            }
+            pose.r[i] = match i {
+                0 => pose.c[0],
+                _ => {
+                    let turned = *pose.r[node.parent].matrix() * *pose.c[i].matrix();
+                    SO3::from_matrix_unchecked(turned)
+                }
+            };
+        }
+        (&pose.r, pose)
+    }
+
+    /// $C_i$ and $a_i$ of all motions, and where the base is held, unless they were read for this time and tree.
+    #[inline(always)]
+    pub(crate) fn read_motions_at<S: Scalar>(&self, t: S, pose: &mut Pose<S>) {
+        if pose.read != Some(t) || pose.c.len() != self.nodes.len() {
+            self.read_motions(t, pose);
+        }
+    }
+
+    /// Whether all motions are known at the time `t`: a table ends.
+    pub(crate) fn knows(&self, t: f64) -> bool {
+        let known = self.motions.iter().all(|motion| motion.at(t).1.is_finite());
+        let placed = match &self.base {
+            Base::Free => true,
+            Base::Held { place, .. } => place.derivative(t, 0).iter().all(|x| x.is_finite()),
+        };
+        known && placed
+    }
+
+    fn read_motions<S: Scalar>(&self, t: S, pose: &mut Pose<S>) {
+        let bodies = self.nodes.len();
+        pose.r.resize(bodies, SO3::identity());
+        pose.c.resize(bodies, SO3::identity());
+        pose.rates.resize(bodies, Vec3::zero());
+        for (i, node) in self.nodes.iter().enumerate() {
+            if let Role::Prescribed(k) = node.role {
+                (pose.c[i], pose.rates[i]) = self.motions[k].at(t);
+            }
+        }
+        if let Base::Held { place, .. } = &self.base {
+            pose.place = motion::at(place.as_ref(), t).map(Vec3);
+        }
+        pose.read = Some(t);
+    }
+}

@@ -1,0 +1,119 @@
+//! What the joints of a scene leave free: kinds, angles at the start, springs and motions.
+
+use std::sync::Arc;
+
+use lie::{SO3, Vec3};
+
+use super::description::Mobility;
+use super::entry::{Table, Value};
+use super::error::SceneError;
+use super::laws::{self, Gait};
+use crate::joints::JointKind;
+use crate::motion::Motion;
+
+/// Keys of a joint that only some kinds have.
+const OF_KINDS: [&str; 6] = ["axis", "rest", "angle", "rate", "rest_angle", "stiffness"];
+
+/// Reads the joint in `table`, which may have the motion of a gait.
+pub(super) fn read(table: &Table, gait: Option<&Gait>) -> Result<Mobility, SceneError> {
+    let motion = table.get("motion");
+    if let (Some(motion), Some(gait)) = (&motion, gait) {
+        let line = gait.line;
+        let what = format!("given together with the gait in line {line}; expected one of them");
+        return Err(motion.fail(&what));
+    }
+    let driven = motion.is_some() || gait.is_some();
+    let kind = table.get("type");
+    let word = kind.as_ref().map_or(Ok("ball"), Value::text)?;
+    let allowed: &[&str] = match (word, driven) {
+        ("ball", false) => &["stiffness"],
+        ("hinge", false) => &["axis", "rest", "angle", "rate", "rest_angle", "stiffness"],
+        ("hinge", true) => &["axis", "rest"],
+        ("ball", true) | ("fixed", false) => &["rest"],
+        ("fixed", true) => {
+            let value = motion.as_ref().or(kind.as_ref());
+            let what = "a fixed joint does not move; expected type \"ball\" or \"hinge\" with a motion";
+            return Err(value.map_or_else(|| table.fail(what), |value| value.fail(what)));
+        }
+        _ => return Err(kind.map_or_else(|| table.fail("type"), |kind| kind.unknown_word(word))),
+    };
+    refuse_others(table, (word, driven), allowed)?;
+    let rest = SO3::from_quaternion(table.read("rest", [1.0, 0.0, 0.0, 0.0], Value::attitude)?);
+    let kind = match word {
+        "hinge" => hinge(table, rest, gait)?,
+        "ball" if driven => JointKind::Prescribed(Motion::Ball {
+            rest,
+            turn: laws::of_joint::<3>(table, gait)?,
+        }),
+        "fixed" => JointKind::fixed(rest),
+        _ => JointKind::Ball,
+    };
+    Ok(Mobility {
+        kind,
+        angle: table.read("angle", 0.0, Value::finite)?,
+        rate: table.read("rate", 0.0, Value::finite)?,
+        stiffness: table.read("stiffness", 0.0, Value::not_negative)?,
+    })
+}
+
+fn hinge(table: &Table, rest: SO3, gait: Option<&Gait>) -> Result<JointKind, SceneError> {
+    let value = table.require("axis")?;
+    let axis: [f64; 3] = value.array()?;
+    let largest = axis.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if largest == 0.0 {
+        return Err(value.wrong("has length 0"));
+    }
+    // Brought to size one first: squares overflow and underflow.
+    let kind = JointKind::hinge(Vec3(axis) * (1.0 / largest), rest);
+    let JointKind::Hinge(mut hinge) = kind else {
+        return Ok(kind);
+    };
+    if table.get("motion").is_none() && gait.is_none() {
+        hinge.rest_angle = table.read("rest_angle", 0.0, Value::finite)?;
+        return Ok(JointKind::Hinge(hinge));
+    }
+    Ok(JointKind::Prescribed(Motion::Hinge {
+        axis: hinge.axis,
+        rest,
+        angle: laws::of_joint::<1>(table, gait)?,
+    }))
+}
+
+/// Refuses the keys that a joint of this kind does not have.
+fn refuse_others(
+    table: &Table,
+    (word, driven): (&str, bool),
+    allowed: &[&str],
+) -> Result<(), SceneError> {
+    let mut others = OF_KINDS.iter().filter(|key| !allowed.contains(key));
+    let Some(other) = others.find_map(|key| table.get(key)) else {
+        return Ok(());
+    };
+    let moves = match driven {
+        true => "prescribed",
+        false => "free",
+    };
+    let article = match word {
+        "fixed" => "a fixed joint".to_owned(),
+        word => format!("a {moves} {word} joint"),
+    };
+    let keys = match allowed {
+        [] => "none of these keys".to_owned(),
+        keys => keys.join(", "),
+    };
+    Err(other.fail(&format!("{article} does not have it; it may have {keys}")))
+}
+
+/// The place of a joint to the world.
+pub(super) fn place(table: &Table) -> Result<crate::motion::Sinusoid<3>, SceneError> {
+    let at: [f64; 3] = table.require("at_parent")?.array()?;
+    let Some(value) = table.get("place") else {
+        return Ok(crate::motion::Sinusoid::constant(at));
+    };
+    let mut law = laws::sinusoid::<3>(&value.table()?)?;
+    law.bias = [0, 1, 2].map(|i| law.bias[i] + at[i]);
+    Ok(law)
+}
+
+/// A law that may be shared.
+pub(super) type Shared<const N: usize> = Arc<dyn crate::motion::Law<N>>;

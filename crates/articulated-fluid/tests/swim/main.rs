@@ -1,0 +1,7 @@
+//! Trees on hinges, welds and prescribed joints, free and held, against states found in other ways, and against the laws of such trees.
+
+#[path = "../model/by_duals.rs"]
+mod by_duals;
+mod strokes;
+mod trees;
+mod vectors;

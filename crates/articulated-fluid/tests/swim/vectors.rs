@@ -1,0 +1,84 @@
+//! States that three independent ways agree on to 1e-12.
+
+use articulated_fluid::{ArticulatedBody, Configuration, Scene};
+use dvi::{Gauss, Integrator, State};
+use lie::{Mat3, Vec3};
+use serde_json::Value;
+
+pub fn scene(name: &str) -> Scene {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/swim/scenes");
+    Scene::load(format!("{folder}/{name}.toml").as_ref()).expect("a scene")
+}
+
+fn vectors() -> Value {
+    serde_json::from_str(include_str!("vectors.json")).expect("JSON")
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let array = value.as_array().expect("an array");
+    array.iter().map(|x| x.as_f64().expect("a number")).collect()
+}
+
+fn vec3(value: &Value) -> Vec3 {
+    Vec3(numbers(value).try_into().expect("three numbers"))
+}
+
+fn matrices(value: &Value) -> Vec<Mat3> {
+    let array = value.as_array().expect("an array").iter();
+    let matrix = |m: &Value| {
+        let rows: Vec<[f64; 3]> = m.as_array().expect("rows").iter().map(|r| vec3(r).0).collect();
+        Mat3(rows.try_into().expect("three rows"))
+    };
+    array.map(matrix).collect()
+}
+
+/// How far the attitudes and the first body's mass centre are from those told.
+fn apart(model: &ArticulatedBody, state: &State<Configuration>, told: &Value) -> [f64; 2] {
+    let attitudes = model.attitudes(state.t, &state.g).expect("a state");
+    let told_r = matrices(&told["R"]);
+    assert_eq!(attitudes.len(), told_r.len());
+    let off = attitudes.iter().zip(told_r).map(|(r, told)| (*r.matrix() - told).frobenius());
+    let centre = model.centre_positions(state.t, &state.g).expect("a state")[0];
+    [off.fold(0.0, f64::max), (centre - vec3(&told["x"])).norm()]
+}
+
+fn follows(name: &str, h: f64) {
+    let (scene, vectors) = (scene(name), vectors());
+    let case = &vectors[name];
+    let model = scene.model().expect("a model");
+    let mut state = scene.initial_state().expect("a state");
+    let [r, x] = apart(&model, &state, &case["start"]);
+    assert!(r < 1e-14 && x < 1e-14, "{name} starts {r:e} and {x:e} off");
+    let start = model.conserved(&state).expect("finite");
+    let energy = case["start"]["energy"].as_f64().expect("a number");
+    assert!((start.energy - energy).abs() < 1e-12 * energy.abs().max(1.0), "{name}: {start:?}");
+    let mut integrator = Gauss::new::<4>(model.clone());
+    for told in case["at"].as_array().expect("states") {
+        let t = told["t"].as_f64().expect("a time");
+        while state.t < t - 0.5 * h {
+            integrator.step(&mut state, h).expect("a step");
+        }
+        let [r, x] = apart(&model, &state, told);
+        assert!(r < 1e-9 && x < 1e-9, "{name} at {t} s is {r:e} and {x:e} off");
+    }
+}
+
+#[test]
+fn the_prescribed_fish_swims_as_told() {
+    follows("fish-prescribed", 0.02);
+}
+
+#[test]
+fn the_wave_of_an_eel_swims_as_told() {
+    follows("eel-wave", 0.02);
+}
+
+#[test]
+fn a_triple_pendulum_on_hinges_falls_as_told() {
+    follows("pendulum-hinges", 0.01);
+}
+
+#[test]
+fn a_triple_pendulum_on_balls_falls_as_told() {
+    follows("pendulum-balls", 0.01);
+}
