@@ -31,10 +31,10 @@ fn at<S: Scalar>(x: Vec3<S>) -> Power<R3<S>> {
 struct Turn(Vec3);
 
 impl Symmetry<Configuration> for Turn {
-    fn act<S: Scalar>(&self, s: S, (r, x): &Configuration<S>) -> Configuration<S> {
+    fn act<S: Scalar>(&self, s: S, (r, x, q): &Configuration<S>) -> Configuration<S> {
         let turn = SO3::exp(&(self.0.lift() * s).into());
         let turned = r.iter().map(|r| turn.compose(r));
-        (turned.collect(), at(turn.rotate(x[0].vec3())))
+        (turned.collect(), at(turn.rotate(x[0].vec3())), q.clone())
     }
 }
 
@@ -42,8 +42,8 @@ impl Symmetry<Configuration> for Turn {
 struct Shift(Vec3);
 
 impl Symmetry<Configuration> for Shift {
-    fn act<S: Scalar>(&self, s: S, (r, x): &Configuration<S>) -> Configuration<S> {
-        (r.clone(), at(x[0].vec3() + self.0.lift() * s))
+    fn act<S: Scalar>(&self, s: S, (r, x, q): &Configuration<S>) -> Configuration<S> {
+        (r.clone(), at(x[0].vec3() + self.0.lift() * s), q.clone())
     }
 }
 
@@ -139,9 +139,9 @@ impl Force for Joints {
     fn force<S: Scalar>(
         &self,
         _: Context<S>,
-        (r, _): &Configuration<S>,
-        (omega, _): &AlgebraOver<Configuration, S>,
-        (torques, _): &mut DualOver<Configuration, S>,
+        (r, ..): &Configuration<S>,
+        (omega, ..): &AlgebraOver<Configuration, S>,
+        (torques, ..): &mut DualOver<Configuration, S>,
     ) {
         let spin = |i: usize| r[i].rotate(omega[i].vec3());
         for i in 1..r.len() {

@@ -16,13 +16,7 @@ impl ArticulatedBody {
     /// (22), with the displacement of the first body $\Delta x$ in the reference frame and its position `x`.
     ///
     /// With $E = F - I$, $B_i$ of (28) and $\mathrm{tr}[(I - F) J_d] = -\mathrm{tr}[E J_d]$.
-    fn action<S: Scalar>(
-        &self,
-        t: S,
-        g: &Configuration<S>,
-        f: &Configuration<S>,
-        h: S,
-    ) -> S {
+    fn action<S: Scalar>(&self, t: S, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {
         let mut work = Expansion::default();
         let step = self.step((t, h), g, (&f.0, &f.2), &mut work);
         let mut sum = S::zero();

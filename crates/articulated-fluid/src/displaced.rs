@@ -69,7 +69,12 @@ impl ArticulatedBody {
         if !self.is_simple() {
             self.expand((t, h), g, turns, work);
         }
-        let Expansion { now, next, f: all, e } = work;
+        let Expansion {
+            now,
+            next,
+            f: all,
+            e,
+        } = work;
         let (r, f, e) = match self.has_inner() {
             true => (&now.r[..], &all[..], &e[..]),
             false => (&g.0[..], turns.0, &[][..]),

@@ -52,7 +52,9 @@ pub enum ModelError {
         last: usize,
     },
     /// A hinge has no axis of length 1, or its angle at rest is not finite.
-    #[error("the hinge of body {body} has no unit axis or no finite angle at rest; make it by JointKind::hinge")]
+    #[error(
+        "the hinge of body {body} has no unit axis or no finite angle at rest; make it by JointKind::hinge"
+    )]
     Hinge {
         /// Index of the body that hangs on it.
         body: usize,
@@ -84,7 +86,9 @@ pub enum ModelError {
         stiffness: f64,
     },
     /// A joint that leaves nothing free has a spring.
-    #[error("the joint of body {body} is fixed or prescribed and has a spring; give it no stiffness")]
+    #[error(
+        "the joint of body {body} is fixed or prescribed and has a spring; give it no stiffness"
+    )]
     Spring {
         /// Index of the body that hangs on the joint.
         body: usize,

@@ -57,12 +57,7 @@ impl<S: Scalar> Elimination<S> {
     }
 
     #[inline(always)]
-    fn factorise_link(
-        &mut self,
-        tree: &ArticulatedBody,
-        i: usize,
-        (r, c): (&[SO3<S>], &[SO3<S>]),
-    ) {
+    fn factorise_link(&mut self, tree: &ArticulatedBody, i: usize, (r, c): (&[SO3<S>], &[SO3<S>])) {
         let node = &tree.nodes[i];
         if node.is_last_sibling {
             self.links[node.parent].reset(&tree.nodes[node.parent], &tree.masses[node.parent]);
@@ -240,12 +235,7 @@ impl<S: Scalar> Elimination<S> {
 
     /// The velocity of body `i`'s joint, from its parent's velocity; then its own. What the parent hands on is returned.
     #[inline(always)]
-    fn advance(
-        &mut self,
-        tree: &ArticulatedBody,
-        i: usize,
-        drive: Drive<S>,
-    ) -> (Vec3<S>, Vec3<S>) {
+    fn advance(&mut self, tree: &ArticulatedBody, i: usize, drive: Drive<S>) -> (Vec3<S>, Vec3<S>) {
         let node = &tree.nodes[i];
         let (parent, link) = self.joint(i, node.parent);
         let u = parent.joint_velocity(link, node.at_parent.lift());

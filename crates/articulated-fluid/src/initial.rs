@@ -46,7 +46,9 @@ impl Scene {
 
     /// That of the joint to the world first, then in the order of the bodies that hang on the joints.
     fn stiffnesses(&self) -> Vec<f64> {
-        self.mobilities().map(|(_, mobility)| mobility.stiffness).collect()
+        self.mobilities()
+            .map(|(_, mobility)| mobility.stiffness)
+            .collect()
     }
 
     /// What the joints leave free, in the order of the bodies that hang on them.
@@ -54,7 +56,11 @@ impl Scene {
         let mut joints: Vec<&SceneJoint> = self.joints.iter().collect();
         joints.sort_by_key(|joint| joint.child);
         let mount = self.mount.iter().map(|mount| (0, &mount.mobility));
-        mount.chain(joints.into_iter().map(|joint| (joint.child, &joint.mobility)))
+        mount.chain(
+            joints
+                .into_iter()
+                .map(|joint| (joint.child, &joint.mobility)),
+        )
     }
 
     /// Whether gravity acts on a body that is heavier or lighter than what it displaces.
@@ -103,7 +109,8 @@ impl Scene {
 
     /// What a joint or a free base leaves free of body `i`.
     fn kind(&self, i: usize) -> &JointKind {
-        self.mobility(i).map_or(&JointKind::Ball, |mobility| &mobility.kind)
+        self.mobility(i)
+            .map_or(&JointKind::Ball, |mobility| &mobility.kind)
     }
 
     /// The bodies whose attitudes are unknowns.

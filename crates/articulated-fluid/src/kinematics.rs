@@ -52,8 +52,7 @@ impl ArticulatedBody {
     pub fn joint_positions(&self, t: f64, g: &Configuration) -> Result<Vec<Vec3>, ModelError> {
         let (centres, r) = (self.centre_positions(t, g)?, self.attitudes(t, g)?);
         let tails = self.nodes.iter().skip(1);
-        let position =
-            |node: &Node| centres[node.parent] + r[node.parent].rotate(node.at_parent);
+        let position = |node: &Node| centres[node.parent] + r[node.parent].rotate(node.at_parent);
         Ok(tails.map(position).collect())
     }
 
@@ -75,7 +74,11 @@ impl ArticulatedBody {
         (r, x, q): &(Power<R>, Power<X>, Power<Q>),
     ) -> ModelError {
         ModelError::Shape {
-            expected: [self.roots.len(), usize::from(self.is_free()), self.hinges.len()],
+            expected: [
+                self.roots.len(),
+                usize::from(self.is_free()),
+                self.hinges.len(),
+            ],
             found: [r.len(), x.len(), q.len()],
         }
     }

@@ -71,6 +71,10 @@ impl ContinuousSystem for ArticulatedBody {
     type Workspace<S: Scalar> = Evaluation<S>;
     const INLINE: bool = true;
 
+    fn is_defined(&self, t: f64, _: &Configuration) -> bool {
+        self.knows(t)
+    }
+
     #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,

@@ -341,7 +341,12 @@ impl ArticulatedBody {
         (rotations, translations, angles): &(Power<R>, Power<X>, Power<Q>),
     ) -> bool {
         let found = [rotations.len(), translations.len(), angles.len()];
-        found == [self.roots.len(), usize::from(self.is_free()), self.hinges.len()]
+        found
+            == [
+                self.roots.len(),
+                usize::from(self.is_free()),
+                self.hinges.len(),
+            ]
     }
 }
 

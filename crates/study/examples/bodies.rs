@@ -62,8 +62,8 @@ fn chain(n: usize) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn st
         child,
         at_parent: Vec3([5.5, 0.1, -0.05]),
         at_child: Vec3([-5.5, 0.05, 0.1]),
-            kind: Default::default(),
-        };
+        kind: Default::default(),
+    };
     let bodies: Vec<_> = (0..n).map(body).collect();
     let joints: Vec<_> = (1..n).map(joint).collect();
     let model = ArticulatedBody::new(&bodies, &joints)?;
@@ -75,10 +75,12 @@ fn chain(n: usize) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn st
     let g = (
         (0..n).map(attitude).collect::<Power<_>>(),
         Power::new(vec![R3::identity()]),
+        Power::new(vec![]),
     );
     let xi = (
         (0..n).map(rate).collect::<Power<_>>(),
         Power::new(vec![Tangent([0.0; 3])]),
+        Power::new(vec![]),
     );
     let state = model.state(0.0, g, &xi)?;
     Ok((model, state))
@@ -95,9 +97,9 @@ impl Force for Brake {
     fn force<S: Scalar>(
         &self,
         _: Context<S>,
-        (r, _): &Configuration<S>,
-        (omega, _): &AlgebraOver<Configuration, S>,
-        (torques, _): &mut DualOver<Configuration, S>,
+        (r, ..): &Configuration<S>,
+        (omega, ..): &AlgebraOver<Configuration, S>,
+        (torques, ..): &mut DualOver<Configuration, S>,
     ) {
         let rate = |i: usize| r[i].rotate(omega[i].vec3());
         for i in 1..r.len() {

@@ -13,8 +13,8 @@ mod hinge;
 mod kind;
 mod link;
 
-pub(crate) use hinge::HingeFactors;
 pub use hinge::Hinge;
+pub(crate) use hinge::HingeFactors;
 pub use kind::JointKind;
 pub(crate) use kind::Role;
 pub(crate) use link::Link;

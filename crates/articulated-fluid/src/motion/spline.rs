@@ -26,7 +26,9 @@ pub enum SplineError {
         least: usize,
     },
     /// The times do not increase, or a number is not finite.
-    #[error("row {row}: the time {time:?} does not come after the one before, or a number is not finite; expected increasing times and finite numbers")]
+    #[error(
+        "row {row}: the time {time:?} does not come after the one before, or a number is not finite; expected increasing times and finite numbers"
+    )]
     Order {
         /// Index of the point, from 0.
         row: usize,
@@ -34,7 +36,9 @@ pub enum SplineError {
         time: f64,
     },
     /// A periodic spline whose ends differ.
-    #[error("the last point differs from the first by {difference:e}; expected equal ends, or a table that does not repeat")]
+    #[error(
+        "the last point differs from the first by {difference:e}; expected equal ends, or a table that does not repeat"
+    )]
     Ends {
         /// The largest difference.
         difference: f64,
@@ -85,7 +89,10 @@ impl<const N: usize> Spline<N> {
         if ends == Ends::Periodic {
             let differences = (0..N).map(|i| (values[found - 1][i] - values[0][i]).abs());
             let difference = differences.fold(0.0, f64::max);
-            let size = values.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+            let size = values
+                .iter()
+                .flatten()
+                .fold(0.0, |m: f64, x| m.max(x.abs()));
             if difference > 1e-9 * size {
                 return Err(SplineError::Ends { difference });
             }
@@ -98,7 +105,10 @@ impl<const N: usize> Spline<N> {
                 Ends::Natural => natural(&times, &column),
                 Ends::Periodic => periodic(&times, &column),
             };
-            curvatures.iter_mut().zip(second).for_each(|(all, one)| all[i] = one);
+            curvatures
+                .iter_mut()
+                .zip(second)
+                .for_each(|(all, one)| all[i] = one);
         }
         Ok(Self {
             times,
@@ -178,7 +188,10 @@ fn periodic(times: &[f64], values: &[f64]) -> Vec<f64> {
     let (first, last) = (widths[0], widths[n - 1]);
     let end = (jump - first * own[0] - last * own[n - 2])
         / (2.0 * (first + last) + first * by_end[0] + last * by_end[n - 2]);
-    let inner = own.iter().zip(by_end).map(|(own, by_end)| own + end * by_end);
+    let inner = own
+        .iter()
+        .zip(by_end)
+        .map(|(own, by_end)| own + end * by_end);
     core::iter::once(end).chain(inner).chain([end]).collect()
 }
 
@@ -191,7 +204,11 @@ fn tridiagonal(diagonal: &[f64], beside: &[f64], right: &[f64]) -> Vec<f64> {
         x[k] -= factor * x[k - 1];
     }
     for k in (0..x.len()).rev() {
-        let above = if k + 1 < x.len() { beside[k] * x[k + 1] } else { 0.0 };
+        let above = if k + 1 < x.len() {
+            beside[k] * x[k + 1]
+        } else {
+            0.0
+        };
         x[k] = (x[k] - above) / pivots[k];
     }
     x

@@ -48,7 +48,9 @@ impl NotPlanar {
             ..
         } = self;
         let of = match what {
-            NotPlanarCause::State | NotPlanarCause::Joint => return format!("no motion in a coordinate plane: {what}"),
+            NotPlanarCause::State | NotPlanarCause::Joint => {
+                return format!("no motion in a coordinate plane: {what}");
+            }
             NotPlanarCause::VelocityOffPlane | NotPlanarCause::GravityOffPlane => String::new(),
             _ => format!(" ({body})"),
         };

@@ -104,7 +104,9 @@ fn joint<'a>(table: &Table<'a>, told: &Told) -> Result<Named<'a>, SceneError> {
         return Err(child_name.fail(what));
     }
     if let Some(place) = table.get("place") {
-        return Err(place.fail("only a joint to the world has a place; expected parent = \"world\""));
+        return Err(
+            place.fail("only a joint to the world has a place; expected parent = \"world\"")
+        );
     }
     let (parent, child) = (index(&parent_name, names)?, index(&child_name, names)?);
     let text = child_name.text()?;

@@ -263,10 +263,10 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "joint.stiffness",
-        "a finite number >= 0, in N m (of a hinge in N m/rad)",
+        "a finite number >= 0, in N m",
         "0: a free joint",
         "k of the potential k (1 - cos theta), theta the angle between the frames of parent and child: \
-         the joint is at rest where they are aligned; of a hinge, of k (q - q0)^2 / 2",
+         the joint is at rest where they are aligned; of a hinge, in N m/rad, of k (q - q0)^2 / 2",
     ),
     key(
         "joint.motion",

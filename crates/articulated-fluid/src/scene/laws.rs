@@ -21,10 +21,7 @@ pub(super) struct Gait<'a> {
 pub(super) type Gaits<'a> = HashMap<&'a str, Gait<'a>>;
 
 /// Reads which joints the gaits move.
-pub(super) fn gaits<'a>(
-    tables: &[Table<'a>],
-    names: &[&str],
-) -> Result<Gaits<'a>, SceneError> {
+pub(super) fn gaits<'a>(tables: &[Table<'a>], names: &[&str]) -> Result<Gaits<'a>, SceneError> {
     let mut gaits = Gaits::new();
     for table in tables {
         let list = table.require("joints")?;
@@ -45,7 +42,9 @@ pub(super) fn gaits<'a>(
             };
             if let Some(other) = gaits.insert(name, gait) {
                 let line = other.line;
-                let what = format!("{name:?} has the gait in line {line} already; expected one gait for each joint");
+                let what = format!(
+                    "{name:?} has the gait in line {line} already; expected one gait for each joint"
+                );
                 return Err(list.fail(&what));
             }
         }
@@ -93,7 +92,11 @@ impl Gait<'_> {
 pub(super) fn sinusoid<const N: usize>(table: &Table) -> Result<Sinusoid<N>, SceneError> {
     let zero = [0.0; N];
     let harmonics = table.read("harmonics", vec![], |value| {
-        value.elements()?.iter().map(|one| wave(value, one)).collect()
+        value
+            .elements()?
+            .iter()
+            .map(|one| wave(value, one))
+            .collect()
     })?;
     let waves = !harmonics.is_empty() || table.get("amplitude").is_some();
     let frequency = match waves {
@@ -129,7 +132,14 @@ fn numbers<const N: usize>(value: &Value) -> Result<[f64; N], SceneError> {
 
 /// A spline through the rows of a CSV file.
 fn measured<const N: usize>(motion: &Table, file: &Value) -> Result<Shared<N>, SceneError> {
-    for key in ["amplitude", "frequency", "phase", "bias", "ramp", "harmonics"] {
+    for key in [
+        "amplitude",
+        "frequency",
+        "phase",
+        "bias",
+        "ramp",
+        "harmonics",
+    ] {
         if let Some(value) = motion.get(key) {
             return Err(value.fail("given together with file; expected one of them"));
         }
@@ -167,7 +177,9 @@ fn rows<const N: usize>(
         .comment(Some(b'#'))
         .from_path(path)
         .map_err(|error| format!("{shown} cannot be read: {error}"))?;
-    let header = reader.headers().map_err(|error| format!("{shown}: {error}"))?;
+    let header = reader
+        .headers()
+        .map_err(|error| format!("{shown}: {error}"))?;
     let places: Vec<usize> = match names {
         None => (0..=N).collect(),
         Some(names) => {

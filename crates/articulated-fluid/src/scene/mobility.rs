@@ -32,7 +32,8 @@ pub(super) fn read(table: &Table, gait: Option<&Gait>) -> Result<Mobility, Scene
         ("ball", true) | ("fixed", false) => &["rest"],
         ("fixed", true) => {
             let value = motion.as_ref().or(kind.as_ref());
-            let what = "a fixed joint does not move; expected type \"ball\" or \"hinge\" with a motion";
+            let what =
+                "a fixed joint does not move; expected type \"ball\" or \"hinge\" with a motion";
             return Err(value.map_or_else(|| table.fail(what), |value| value.fail(what)));
         }
         _ => return Err(kind.map_or_else(|| table.fail("type"), |kind| kind.unknown_word(word))),

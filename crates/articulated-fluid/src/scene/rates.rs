@@ -29,7 +29,9 @@ pub(super) fn set(
         on[joint.child] = Some((Some(joint.parent), &joint.mobility));
     }
     for (index, (table, on)) in tables.iter().zip(on).enumerate() {
-        let parent = on.and_then(|(parent, _)| parent).map(|p| turning(&bodies[p]));
+        let parent = on
+            .and_then(|(parent, _)| parent)
+            .map(|p| turning(&bodies[p]));
         let follows = on.map(|(_, mobility)| mobility).and_then(relative);
         let turning = match follows {
             Some((c, rate)) => {
@@ -92,7 +94,8 @@ fn free(
             Err(rate.fail(message))
         }
         (None, Some(given)) if floats => {
-            let message = "it follows from momentum = \"zero\"; expected joint_rate, or no such key";
+            let message =
+                "it follows from momentum = \"zero\"; expected joint_rate, or no such key";
             Err(given.fail(message))
         }
         (None, Some(given)) => Ok(Vec3(given.array()?)),
@@ -111,11 +114,7 @@ fn carried(body: &SceneBody, parent: Option<Turning>) -> Vec3 {
 }
 
 /// $\Omega = \omega + R^T R_p \Omega_p$ of a body that turns at $\omega$ relative to its parent.
-fn absolute(
-    rate: &Value,
-    body: &SceneBody,
-    parent: Option<Turning>,
-) -> Result<Vec3, SceneError> {
+fn absolute(rate: &Value, body: &SceneBody, parent: Option<Turning>) -> Result<Vec3, SceneError> {
     if parent.is_none() {
         let message = "the first body hangs on no joint; expected the key angular_velocity";
         return Err(rate.fail(message));

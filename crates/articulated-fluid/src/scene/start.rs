@@ -17,7 +17,9 @@ pub(super) fn read(
         let name = &mount.name;
         let mut keys = ["position", "velocity", "momentum"].iter();
         if let Some(value) = keys.find_map(|key| table.get(key)) {
-            let what = format!("the first body hangs on the world by the joint {name:?}; expected no such key");
+            let what = format!(
+                "the first body hangs on the world by the joint {name:?}; expected no such key"
+            );
             return Err(value.fail(&what));
         }
     }

@@ -42,7 +42,9 @@ impl Rerooted {
         let mass = |i: &usize| model.masses[*i].trace();
         let bodies = 1..model.nodes.len();
         let heaviest = bodies.fold(0, |best, i| if mass(&i) > mass(&best) { i } else { best });
-        (heaviest != 0 && model.is_simple()).then(|| Self::on(model, heaviest)).flatten()
+        (heaviest != 0 && model.is_simple())
+            .then(|| Self::on(model, heaviest))
+            .flatten()
     }
 
     /// The view that hangs the tree on the body `root`; `None` where the numbers overflow there.

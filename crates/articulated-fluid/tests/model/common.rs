@@ -279,8 +279,8 @@ pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value 
                     child: i + 1,
                     at_parent,
                     at_child,
-            kind: Default::default(),
-        };
+                    kind: Default::default(),
+                };
                 let joints: Vec<_> = parents
                     .into_iter()
                     .zip(points)
@@ -312,8 +312,8 @@ pub fn gentle(shape: Shape, bodies: usize) -> (ArticulatedBody, State<Configurat
         child,
         at_parent: Vec3([0.6, 0.0, 0.0]),
         at_child: Vec3([-0.6, 0.0, 0.0]),
-            kind: Default::default(),
-        };
+        kind: Default::default(),
+    };
     let joints: Vec<_> = (1..bodies).map(joint).collect();
     let model = build(&vec![Body { mass, inertia }; bodies], &joints, &None);
     let wave = |i: usize| {

@@ -58,8 +58,8 @@ impl Flat {
                 child,
                 at_parent: self.parts[parent].frame.rotate(flat(part.at_parent)),
                 at_child: part.frame.rotate(flat(part.at_child)),
-            kind: Default::default(),
-        }
+                kind: Default::default(),
+            }
         };
         let joints: Vec<Joint> = (1..self.parts.len()).map(joint).collect();
         let stiffnesses: Vec<f64> = self.parts[1..].iter().map(|p| p.stiffness).collect();

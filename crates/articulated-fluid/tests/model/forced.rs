@@ -33,9 +33,9 @@ impl<const INLINED: bool> Force for Brakes<INLINED> {
     fn force<S: Scalar>(
         &self,
         _: Context<S>,
-        (r, _): &Configuration<S>,
-        (omega, _): &Velocity<S>,
-        (torques, _): &mut Momentum<S>,
+        (r, ..): &Configuration<S>,
+        (omega, ..): &Velocity<S>,
+        (torques, ..): &mut Momentum<S>,
     ) {
         for &(p, c) in &self.0 {
             let (parent, child) = (r[p].rotate(omega[p].vec3()), r[c].rotate(omega[c].vec3()));

@@ -20,8 +20,8 @@ fn joint(parent: usize, child: usize) -> Joint {
         child,
         at_parent: Vec3([1.0, 0.0, 0.5]),
         at_child: Vec3([-1.0, 0.25, 0.0]),
-            kind: Default::default(),
-        }
+        kind: Default::default(),
+    }
 }
 
 fn refusal(bodies: &[Body], joints: &[Joint]) -> ModelError {
@@ -308,8 +308,8 @@ fn wild_joint() -> impl Strategy<Value = Joint> {
         child,
         at_parent,
         at_child,
-            kind: Default::default(),
-        })
+        kind: Default::default(),
+    })
 }
 
 proptest! {

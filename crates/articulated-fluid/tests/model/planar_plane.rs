@@ -140,8 +140,8 @@ fn bodies_without_a_preferred_direction_at_rest_have_a_plane() {
         child: 1,
         at_parent: at,
         at_child: at,
-            kind: Default::default(),
-        };
+        kind: Default::default(),
+    };
     let alone = ArticulatedBody::new(&[ball], &[]).expect("a model");
     let pair = ArticulatedBody::new(&[ball; 2], &[off(Vec3([0.1, 0.2, 0.0]))]).expect("a model");
     let concentric = ArticulatedBody::new(&[ball; 2], &[off(Vec3::zero())]).expect("a model");
@@ -226,8 +226,8 @@ fn falling(azimuth: f64, mut check: impl FnMut(Result<Plane, NotPlanar>)) {
         child: i + 1,
         at_parent: Vec3([1.0, 0.0, 0.0]),
         at_child: Vec3([-1.0, 0.0, 0.0]),
-            kind: Default::default(),
-        };
+        kind: Default::default(),
+    };
     for inertia in [[0.1; 3], [0.1, 0.4, 0.4], [0.1, 0.4, 0.45]] {
         for net in [[-2.0, 1.0, 1.0], [0.1, 1.0, 1.0]] {
             let body = Body {
@@ -272,8 +272,8 @@ fn weights_that_balance_have_no_part_along_the_normal() {
         child: i + 1,
         at_parent: Vec3([x, 0.0, 0.0]),
         at_child: Vec3::zero(),
-            kind: Default::default(),
-        };
+        kind: Default::default(),
+    };
     let pinned = |xs: [f64; 3]| {
         let joints: Vec<Joint> = xs.into_iter().enumerate().map(pin).collect();
         let model = ArticulatedBody::new(&[body; 4], &joints).expect("a model");

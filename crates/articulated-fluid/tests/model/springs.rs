@@ -120,8 +120,8 @@ fn chain() -> (ArticulatedBody, State<Configuration>) {
         child,
         at_parent: Vec3([0.6, 0.1, 0.0]),
         at_child: Vec3([-0.6, 0.0, 0.1]),
-            kind: Default::default(),
-        };
+        kind: Default::default(),
+    };
     let joints: Vec<_> = (1..4).map(joint).collect();
     let free = ArticulatedBody::new(&[body; 4], &joints).expect("a model");
     let model = free.with_stiffness(&[4.0, 0.0, 2.0]).expect("springs");

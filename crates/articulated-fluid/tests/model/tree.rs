@@ -304,8 +304,8 @@ fn buoy() -> (ArticulatedBody, State<Configuration>) {
         child,
         at_parent: Vec3(at_parent),
         at_child: Vec3([0.0, 0.1, 0.6]),
-            kind: Default::default(),
-        };
+        kind: Default::default(),
+    };
     let joints = [
         joint(0, 1, [0.1, 0.2, -0.4]),
         joint(1, 2, [0.0, 0.1, -0.5]),

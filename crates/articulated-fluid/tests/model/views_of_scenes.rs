@@ -1,6 +1,6 @@
 //! Scenes by their smallest models: what is left out is exactly nothing, and what is left depends on neither drift, fall nor order.
 
-use articulated_fluid::scene::{Form, SceneBody, SceneJoint, StartVelocity};
+use articulated_fluid::scene::{Form, Mobility, SceneBody, SceneJoint, StartVelocity};
 use articulated_fluid::{Configuration, Scene, Smallest};
 use dvi::{Composition, Gauss, Integrator, State, Variational};
 use lie::Vec3;
@@ -32,17 +32,22 @@ fn scene(sample: &Sample, velocity: StartVelocity) -> Scene {
         });
     let joints = sample.joints.iter().zip(&sample.stiffnesses);
     let joints = joints.map(|(joint, stiffness)| SceneJoint {
+        name: format!("body-{}", joint.child),
         parent: joint.parent,
         child: joint.child,
         at_parent: joint.at_parent.0,
         at_child: joint.at_child.0,
-        stiffness: *stiffness,
+        mobility: Mobility {
+            stiffness: *stiffness,
+            ..Mobility::default()
+        },
     });
     Scene {
         title: None,
         gravity: gravity.0,
         density: 0.0,
         bodies: bodies.collect(),
+        mount: None,
         joints: joints.collect(),
         position: sample.g.1[0].0,
         velocity,

@@ -72,7 +72,7 @@ fn a_model_has_the_stiffness_of_each_joint() {
     let mut scene = parse(&tree("abcd", "cd ab ac"));
     let free = scene.model().expect("a model");
     for (joint, stiffness) in scene.joints.iter_mut().zip([3.0, 1.0, 2.0]) {
-        joint.stiffness = stiffness;
+        joint.mobility.stiffness = stiffness;
     }
     // Of b, c and d.
     let elastic = free.clone().with_stiffness(&[1.0, 2.0, 3.0]);
@@ -80,9 +80,9 @@ fn a_model_has_the_stiffness_of_each_joint() {
     scene
         .joints
         .iter_mut()
-        .for_each(|joint| joint.stiffness = 0.0);
+        .for_each(|joint| joint.mobility.stiffness = 0.0);
     assert_eq!(scene.model(), Ok(free));
-    scene.joints[0].stiffness = f64::NAN;
+    scene.joints[0].mobility.stiffness = f64::NAN;
     let refused = scene.model().expect_err("no spring");
     assert!(matches!(refused, ModelError::Stiffness { body: 3, .. }));
 }

@@ -96,7 +96,10 @@ fn every_key_is_read() {
     assert_eq!((second.parent, second.child), (0, 1));
     assert_eq!(second.at_parent, [1.0, 0.0, 0.0]);
     assert_eq!(second.at_child, [-2.0, 0.0, 0.5]);
-    assert_eq!((first.stiffness, second.stiffness), (0.0, 2.5));
+    assert_eq!(
+        (first.mobility.stiffness, second.mobility.stiffness),
+        (0.0, 2.5)
+    );
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn is_finite(scene: &Scene) -> bool {
         StartVelocity::ZeroMomentum => [0.0; 3],
     };
     let start = scene.position.iter().chain(&velocity).chain(&scene.gravity);
-    let stiffnesses = scene.joints.iter().map(|joint| &joint.stiffness);
+    let stiffnesses = scene.joints.iter().map(|joint| &joint.mobility.stiffness);
     let all = bodies.chain(points).chain(stiffnesses).chain(start);
     let mut all = all.chain([&scene.density]);
     all.all(|x| x.is_finite())

@@ -7,7 +7,10 @@ use lie::{LieGroup, SO3, Vec3};
 use crate::vectors::scene;
 
 fn start(scene: &Scene) -> (ArticulatedBody, State<Configuration>) {
-    (scene.model().expect("a model"), scene.initial_state().expect("a state"))
+    (
+        scene.model().expect("a model"),
+        scene.initial_state().expect("a state"),
+    )
 }
 
 fn run<I: Integrator<Group = Configuration>>(
@@ -45,7 +48,11 @@ fn the_momentum_of_a_driven_fish_is_kept_whatever_the_tolerance() {
         run(integrator, &mut state, (20_000, 0.005));
         let end = model.conserved(&state).expect("finite");
         // Of a zero sum, beside single momenta of 100 kg m²/s: rounding of 2e4 steps.
-        assert!(end.angular.norm() < 1e-10, "{tolerance:?}: {:?}", end.angular);
+        assert!(
+            end.angular.norm() < 1e-10,
+            "{tolerance:?}: {:?}",
+            end.angular
+        );
         assert!(state.mu.1[0].vec3().norm() < 1e-12, "{tolerance:?}");
     }
 }
@@ -99,7 +106,11 @@ fn a_scallop_goes_nowhere_by_a_symmetric_method() {
     // From a turning point, so that the grid is symmetric about both.
     let (model, first) = start(&clapper(1.0, core::f64::consts::FRAC_PI_2));
     let mut state = first.clone();
-    run(Composition::new::<2>(model.clone()), &mut state, (40, 0.025));
+    run(
+        Composition::new::<2>(model.clone()),
+        &mut state,
+        (40, 0.025),
+    );
     let symmetric = apart(placed(&state), placed(&first));
     assert!(symmetric < 1e-12, "{symmetric:e}");
     let mut state = first.clone();
@@ -110,7 +121,10 @@ fn a_scallop_goes_nowhere_by_a_symmetric_method() {
     let mut state = first.clone();
     run(Variational::new(model), &mut state, (40, 0.025));
     let false_way = apart(placed(&state), placed(&first));
-    assert!(false_way > 1e-3, "the method of order 1 swims, falsely: {false_way:e}");
+    assert!(
+        false_way > 1e-3,
+        "the method of order 1 swims, falsely: {false_way:e}"
+    );
 }
 
 #[test]

@@ -102,7 +102,9 @@ fn tree((told, held): Told, loaded: bool) -> Tree {
             _ => 0.0,
         };
         let stiffnesses: Vec<f64> = told[first..].iter().map(stiffness).collect();
-        model = model.with_gravity(Vec3([0.3, -0.4, -2.0]), &net).expect("a weight");
+        model = model
+            .with_gravity(Vec3([0.3, -0.4, -2.0]), &net)
+            .expect("a weight");
         model = model.with_stiffness(&stiffnesses).expect("springs");
     }
     let mut state = State {
@@ -123,11 +125,21 @@ fn tree((told, held): Told, loaded: bool) -> Tree {
     turn.add_scaled(0.05, &xi);
     f = f.compose(&Configuration::exp(&turn));
     state.mu = model.legendre(state.t, &state.g, &xi).expect("a state");
-    Tree { model, state, f, xi }
+    Tree {
+        model,
+        state,
+        f,
+        xi,
+    }
 }
 
 fn told() -> impl Strategy<Value = Told> {
-    let body = (0..8_usize, 0..5_u8, prop::array::uniform32(-1.0..1.0_f64), prop::array::uniform8(-1.0..1.0_f64));
+    let body = (
+        0..8_usize,
+        0..5_u8,
+        prop::array::uniform32(-1.0..1.0_f64),
+        prop::array::uniform8(-1.0..1.0_f64),
+    );
     let body = body.prop_map(|(parent, kind, a, b)| {
         let mut x = [0.0; 40];
         x[..32].copy_from_slice(&a);
@@ -161,7 +173,11 @@ impl Lagrangian for ByValue<'_> {
 
 fn assert_close(a: &[f64], b: &[f64], tolerance: f64) -> Result<(), TestCaseError> {
     for (i, (x, y)) in a.iter().zip(b).enumerate() {
-        prop_assert!((x - y).abs() <= tolerance, "{i}: {x:e} and {y:e} differ by {:e}", x - y);
+        prop_assert!(
+            (x - y).abs() <= tolerance,
+            "{i}: {x:e} and {y:e} differ by {:e}",
+            x - y
+        );
     }
     Ok(())
 }

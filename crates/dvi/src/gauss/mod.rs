@@ -12,7 +12,7 @@ mod update;
 mod work;
 
 use lie::lanes::InstructionSet;
-use lie::{Cayley, Retraction};
+use lie::{Cayley, Retraction, VectorSpace};
 
 use crate::step::{check_momentum, check_step, finite};
 use crate::{
@@ -176,6 +176,18 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
         })
     }
 
+    /// The step of a system without unknowns: time goes on.
+    fn pass(&mut self, state: &mut State<C::Group>, h: f64) -> Result<StepReport, StepError> {
+        let refused = |cause: Cause| cause.at((self.steps, state.t, h));
+        check_step(&self.system, (state.t, &state.g), h).map_err(refused)?;
+        match self.system.is_defined(state.t + h, &state.g) {
+            true => state.t += h,
+            false => return Err(self.error(state, h, Cause::NotFinite)),
+        }
+        self.steps += 1;
+        Ok(StepReport::default())
+    }
+
     /// Takes the step that was solved.
     fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Result<(), StepError> {
         let (system, work) = (&self.system, self.work.as_mut());
@@ -203,12 +215,19 @@ impl<C: ContinuousSystem + 'static> Integrator for Gauss<C> {
     }
 
     fn step(&mut self, state: &mut State<C::Group>, h: f64) -> Result<StepReport, StepError> {
+        if state.mu.dim() == 0 {
+            return self.pass(state, h);
+        }
         let report = self.solve(state, h)?;
         self.accept(state, h)?;
         Ok(report)
     }
 
     fn peek(&mut self, state: &State<C::Group>, h: f64) -> Result<State<C::Group>, StepError> {
+        if state.mu.dim() == 0 {
+            let mut ahead = state.clone();
+            return self.pass(&mut ahead, h).map(|_| ahead);
+        }
         self.solve(state, h)?;
         let ahead = self.work.as_ref().map(|work| work.ahead((state, h)));
         let defined = ahead.filter(|ahead| self.system.is_defined(ahead.t, &ahead.g));

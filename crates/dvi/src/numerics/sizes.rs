@@ -67,13 +67,19 @@ impl Weights {
         for kind in 0..kinds.count {
             let of_kind = kinds.runs.iter().filter(|(_, of)| *of == kind);
             let coordinates: Vec<usize> = of_kind.flat_map(|(run, _)| run.clone()).collect();
+            if coordinates.is_empty() {
+                exponents.push(None);
+                continue;
+            }
             let every = coordinates.len().div_ceil(SAMPLES).max(1);
             let sampled = coordinates.into_iter().step_by(every);
             let sampled = sampled.map(|i| BETWEEN * inertia(kind, i));
-            exponents.push(exponent(sampled.fold(0.0, larger))?);
+            exponents.push(Some(exponent(sampled.fold(0.0, larger))?));
         }
-        let first = exponents.first().copied().unwrap_or(0);
-        let halves = || exponents.iter().map(|e| (e - first).div_euclid(2));
+        // A kind without coordinates is none.
+        let first = exponents.iter().flatten().next().copied().unwrap_or(0);
+        let exponents = exponents.iter().map(|e| e.unwrap_or(first));
+        let halves = || exponents.clone().map(|e| (e - first).div_euclid(2));
         Some(Self {
             velocities: Factors(halves().map(power_of_two).collect()),
             momenta: Factors(halves().map(|half| power_of_two(-half)).collect()),

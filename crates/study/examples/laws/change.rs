@@ -47,7 +47,7 @@ impl Units {
         for joint in &mut scene.joints {
             joint.at_parent = scaled(joint.at_parent, length);
             joint.at_child = scaled(joint.at_child, length);
-            joint.stiffness *= inertia / (time * time);
+            joint.mobility.stiffness *= inertia / (time * time);
         }
         scene
     }

@@ -2,7 +2,7 @@
 
 use articulated_fluid::Ellipsoid;
 use articulated_fluid::Scene;
-use articulated_fluid::scene::{SceneBody, SceneJoint, StartVelocity};
+use articulated_fluid::scene::{Mobility, SceneBody, SceneJoint, StartVelocity};
 use lie::{LieGroup, SO3, Tangent, Vec3};
 use rand::rngs::SmallRng;
 use rand::{RngExt, SeedableRng};
@@ -28,11 +28,15 @@ pub fn scene(seed: u64, case: u64) -> Scene {
         let parent = random.0.random_range(0..child);
         let reach = |body: &SceneBody| body.semi_axes().map_or(1.0, |axes| axes[0]);
         SceneJoint {
+            name: bodies[child].name.clone(),
             parent,
             child,
             at_parent: random.vector(1.5 * reach(&bodies[parent])).0,
             at_child: random.vector(1.5 * reach(&bodies[child])).0,
-            stiffness: stiffness * random.between(0.0, 1.0) * bodies[child].total_inertia[0][0],
+            mobility: Mobility {
+                stiffness: stiffness * random.between(0.0, 1.0) * bodies[child].total_inertia[0][0],
+                ..Mobility::default()
+            },
         }
     });
     let joints = joints.collect();
@@ -40,6 +44,7 @@ pub fn scene(seed: u64, case: u64) -> Scene {
         gravity: gravity.0,
         density,
         bodies,
+        mount: None,
         joints,
         position: random.vector(2.0).0,
         velocity: StartVelocity::Given(random.vector(0.5).0),

@@ -100,7 +100,7 @@ impl Job for Begin<'_> {
 
     fn run<S: Batch<Item = f64>>(self) -> Self::Output {
         let mut rates = raw::Rates::<S>::new(self.model, &self.start.g);
-        let rhs = move |_: f64, y: &[f64], dy: &mut [f64]| rates.evaluate(y, dy);
+        let rhs = move |t: f64, y: &[f64], dy: &mut [f64]| rates.evaluate(t, y, dy);
         let start = (self.start.t, &raw::pack(self.start)[..]);
         let trajectory =
             Trajectory::<_, S>::new(self.pair, rhs, start, self.until, self.tolerance)?;

@@ -1,6 +1,6 @@
 //! The continuous model as explicit methods on vectors see it: raw matrix entries, which nothing keeps orthogonal.
 //!
-//! Layout: $R_0, \dots, R_n$ row by row, $x$, then $p_0, \dots, p_n, p_x$.
+//! Layout: $R_0, \dots, R_n$ row by row, $x$, then $p_0, \dots, p_n, p_x$; at the end the angles of hinges and their momenta.
 
 use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::{Context, ContinuousSystem, State};
@@ -15,12 +15,26 @@ pub(super) fn pack(state: &State<Configuration>) -> Vec<f64> {
 }
 
 /// A vector for states of the shape of this one.
-pub(super) fn zero((r, x): &Configuration) -> Vec<f64> {
-    vec![0.0; 12 * r.len() + 6 * x.len()]
+pub(super) fn zero((r, x, q): &Configuration) -> Vec<f64> {
+    vec![0.0; 12 * r.len() + 6 * x.len() + 2 * q.len()]
+}
+
+/// The parts for attitudes and places, for hinge angles, and for their momenta.
+#[inline(always)]
+fn parts(y: &[f64], hinges: usize) -> (&[[f64; 3]], &[f64], &[f64]) {
+    let (main, angles) = y.split_at(y.len() - 2 * hinges);
+    let (q, pi) = angles.split_at(hinges);
+    (main.as_chunks().0, q, pi)
 }
 
 /// [`pack`] into a vector of fitting length.
-pub(super) fn write(State { g: (r, x), mu, .. }: &State<Configuration>, y: &mut [f64]) {
+pub(super) fn write(State { g, mu, .. }: &State<Configuration>, y: &mut [f64]) {
+    let (r, x, q) = g;
+    let (y, angles) = y.split_at_mut(12 * r.len() + 6 * x.len());
+    let (of_q, of_pi) = angles.split_at_mut(q.len());
+    for (i, entry) in of_q.iter_mut().enumerate() {
+        (*entry, of_pi[i]) = (q[i].0[0], mu.2[i][0]);
+    }
     let (of_r, rest) = y.split_at_mut(9 * r.len());
     let (of_x, of_mu) = rest.split_at_mut(3 * x.len());
     for (entries, r) in of_r.chunks_exact_mut(9).zip(r.iter()) {
@@ -29,7 +43,8 @@ pub(super) fn write(State { g: (r, x), mu, .. }: &State<Configuration>, y: &mut 
     for (entries, x) in of_x.chunks_exact_mut(3).zip(x.iter()) {
         entries.copy_from_slice(&x.0);
     }
-    mu.write(of_mu);
+    (&mu.0).write(&mut of_mu[..3 * r.len()]);
+    (&mu.1).write(&mut of_mu[3 * r.len()..]);
 }
 
 /// The inverse of [`pack`] into a configuration and momentum of fitting size, with the matrices as they are; the same state in all
@@ -37,10 +52,13 @@ pub(super) fn write(State { g: (r, x), mu, .. }: &State<Configuration>, y: &mut 
 #[inline(always)]
 pub(super) fn read<S: Batch<Item = f64>>(
     y: &[f64],
-    (r, x): &mut Configuration<S>,
-    (p, px): &mut DualOver<Configuration, S>,
+    (r, x, q): &mut Configuration<S>,
+    (p, px, pi): &mut DualOver<Configuration, S>,
 ) {
-    let (triples, _) = y.as_chunks();
+    let (triples, of_q, of_pi) = parts(y, q.len());
+    for i in 0..q.len() {
+        (q[i].0[0], pi[i][0]) = (S::splat(of_q[i]), S::splat(of_pi[i]));
+    }
     let (of_r, rest) = triples.split_at(3 * r.len());
     let (of_x, rest) = rest.split_at(x.len());
     let (of_p, of_px) = rest.split_at(p.len());
@@ -74,7 +92,7 @@ pub(super) struct Rates<S: Batch<Item = f64>> {
     mu: DualOver<Configuration, S>,
     xi: AlgebraOver<Configuration, S>,
     tau: DualOver<Configuration, S>,
-    workspace: articulated_fluid::Elimination<S>,
+    workspace: articulated_fluid::Evaluation<S>,
 }
 
 impl<S: Batch<Item = f64>> Rates<S> {
@@ -96,15 +114,15 @@ impl<S: Batch<Item = f64>> Rates<S> {
         &self.mu
     }
 
-    /// The rates of `y`, both as [`pack`] lays them out.
+    /// The rates of `y` at the time `t`, both as [`pack`] lays them out.
     #[inline(never)]
-    pub(super) fn evaluate(&mut self, y: &[f64], dy: &mut [f64]) {
+    pub(super) fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) {
         S::run(
             #[inline(always)]
             || {
                 let (g, mu, xi, tau) = (&mut self.g, &mut self.mu, &mut self.xi, &mut self.tau);
                 read(y, g, mu);
-                let (at, work) = (Context::new(S::splat(0.0), &[]), &mut self.workspace);
+                let (at, work) = (Context::new(S::splat(t), &[]), &mut self.workspace);
                 self.model.velocity_and_force::<S>(at, g, mu, work, xi, tau);
                 self.write(dy);
             },
@@ -113,8 +131,13 @@ impl<S: Batch<Item = f64>> Rates<S> {
 
     #[inline(always)]
     fn write(&self, dy: &mut [f64]) {
-        let ((r, x), (p, _)) = (&self.g, &self.mu);
-        let ((omega, v), (tau, force)) = (&self.xi, &self.tau);
+        let ((r, x, q), (p, ..)) = (&self.g, &self.mu);
+        let ((omega, v, rates), (tau, force, torques)) = (&self.xi, &self.tau);
+        let (dy, angles) = dy.split_at_mut(dy.len() - 2 * q.len());
+        let (d_q, d_pi) = angles.split_at_mut(q.len());
+        for i in 0..q.len() {
+            (d_q[i], d_pi[i]) = (first(rates[i][0]), first(torques[i][0]));
+        }
         let (triples, _) = dy.as_chunks_mut();
         let (d_r, rest) = triples.split_at_mut(3 * r.len());
         let (d_x, rest) = rest.split_at_mut(x.len());
@@ -156,6 +179,11 @@ fn turned<S: Batch<Item = f64>>(
 #[inline(always)]
 fn store<S: Batch<Item = f64>>(x: Vec3<S>, out: &mut [f64; 3]) {
     for (out, x) in out.iter_mut().zip(&x.0) {
-        *out = S::items(core::slice::from_ref(x))[0];
+        *out = first(*x);
     }
+}
+
+#[inline(always)]
+fn first<S: Batch<Item = f64>>(x: S) -> f64 {
+    S::items(core::slice::from_ref(&x))[0]
 }

@@ -84,7 +84,7 @@ impl Integrator for RungeKutta {
             ..
         } = self;
         raw::write(state, y);
-        let mut rhs = |_: f64, y: &[f64], dy: &mut [f64]| rates.evaluate(y, dy);
+        let mut rhs = |t: f64, y: &[f64], dy: &mut [f64]| rates.evaluate(t, y, dy);
         rhs(state.t, y, &mut k[0]);
         evaluate::<f64>(tableau.rows, &mut rhs, (state.t, y), h, next, k);
         combine::<f64>(next, y, h, tableau.weights, k);

@@ -158,7 +158,7 @@ impl Parameter {
             Self::Stiffness => scene
                 .joints
                 .iter_mut()
-                .for_each(|joint| joint.stiffness += value),
+                .for_each(|joint| joint.mobility.stiffness += value),
         }
         Ok(scene)
     }

@@ -54,7 +54,7 @@ impl Errors {
             watch
                 .get_or_insert_with(|| Watch::new(model, sample))
                 .add(&sample);
-            let apart = distance(model, &state.g, &exact.g).ok_or(failure)?;
+            let apart = distance(model, state, exact).ok_or(failure)?;
             attitude = apart.0.max(attitude);
             position = apart.1.max(position);
         }
@@ -74,14 +74,15 @@ impl Errors {
 /// The largest angle, rad, and the largest distance, m, between bodies of two configurations; `None` where one is not a number.
 pub(super) fn distance(
     model: &ArticulatedBody,
-    a: &Configuration,
-    b: &Configuration,
+    a: &State<Configuration>,
+    b: &State<Configuration>,
 ) -> Option<(f64, f64)> {
-    let angles = a.0.iter().zip(b.0.iter()).map(|(a, b)| angle(a, b));
-    let centres = model.centre_positions(a).into_iter();
-    let gaps = centres
-        .zip(model.centre_positions(b))
-        .map(|(a, b)| (a - b).norm());
+    let attitudes = |s: &State<Configuration>| model.attitudes(s.t, &s.g).ok();
+    let angles = attitudes(a)?.into_iter().zip(attitudes(b)?);
+    let angles = angles.map(|(a, b)| angle(&a, &b));
+    let centres = |s: &State<Configuration>| model.centre_positions(s.t, &s.g).ok();
+    let gaps = centres(a)?.into_iter().zip(centres(b)?);
+    let gaps = gaps.map(|(a, b)| (a - b).norm());
     Some((largest(angles)?, largest(gaps)?))
 }
 
@@ -104,7 +105,7 @@ pub(crate) fn apart(
     a: &State<Configuration>,
     b: &State<Configuration>,
 ) -> f64 {
-    distance(model, &a.g, &b.g).map_or(f64::INFINITY, |(angle, _)| angle)
+    distance(model, a, b).map_or(f64::INFINITY, |(angle, _)| angle)
 }
 
 #[cfg(test)]

@@ -246,7 +246,7 @@ fn a_parameter_changes_what_it_says() {
         assert_eq!(parameter.name().parse(), Ok(parameter));
         let same = parameter.vary(&original, 1.0).unwrap();
         match parameter {
-            Parameter::Stiffness => assert_eq!(same.joints[1].stiffness, 1.0),
+            Parameter::Stiffness => assert_eq!(same.joints[1].mobility.stiffness, 1.0),
             _ => {
                 for (a, b) in same.bodies.iter().zip(&original.bodies) {
                     let entries = a
