@@ -12,8 +12,11 @@ use crate::run::Run;
 use crate::schedule::{Due, Schedule};
 use crate::watch::Watch;
 
-/// The most steps that [`Simulation::advance`] takes at once.
+/// The most steps that [`Simulation::advance`] takes at once; of many bodies, fewer.
 pub const CHUNK: u64 = 100;
+
+/// As many steps of a single body it takes at most, if it takes two steps: tens of milliseconds of the slowest method.
+const CHUNK_OF_BODIES: u64 = 1000;
 
 /// How a scene is to be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,7 +96,7 @@ impl Simulation {
         };
         let run = Run::new(integrator, scene.initial_state()?, clock);
         let start = run.state().clone();
-        let first = Frame::new(&model, start).ok_or(SimError::NotFinite { t: 0.0 })?;
+        let first = Frame::new(&model, start).map_err(|error| SimError::unmeasured(0.0, error))?;
         Ok(Self {
             title: scene.title.clone(),
             account: smallest.account,
@@ -149,7 +152,9 @@ impl Simulation {
             return Ok(None);
         };
         let due = self.plan.schedule.due(self.clock(), number);
-        let stop = due.steps.min(self.steps() + CHUNK);
+        let bodies = self.model.bodies().len() as u64;
+        let chunk = (CHUNK_OF_BODIES / bodies).clamp(1, CHUNK);
+        let stop = due.steps.min(self.steps() + chunk);
         self.run
             .advance(stop)
             .map_err(|error| self.refused(error))?;
@@ -165,7 +170,7 @@ impl Simulation {
 
     fn frame(&mut self, due: &Due) -> Result<Frame, SimError> {
         let state = self.run.look(due).map_err(|error| self.refused(error))?;
-        Frame::new(&self.model, state).ok_or(SimError::NotFinite { t: due.t })
+        Frame::new(&self.model, state).map_err(|error| SimError::unmeasured(due.t, error))
     }
 
     fn refused(&self, source: StepError) -> SimError {
