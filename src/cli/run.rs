@@ -103,11 +103,13 @@ Examples:
   lgvi run --accuracy 1e-9                       stages and step as an error of 1e-9 rad and m asks for
   lgvi run --json | jq .energy_error_max_relative
 
-CSV columns, with 17 significant digits; the first row is t = 0, the last one --until; those marked + are there with --all-columns:
+CSV columns, with 17 significant digits; the first row is t = 0, the last one --until.
+Those marked + are there with --all-columns:
 {columns}
-  NAME is the body's name as the scene has it: what follows its last dot is the column. The centre of mass is that of the bodies'
-  own masses; where a body is given by total_mass, its own mass is not known, and then all bodies count by their total masses, with the
-  added mass in them, in the mean of the three axes.
+  NAME is the name of a body as in the scene. It may have dots: the column is what follows the last.
+  The centre of mass is that of the bodies' own masses, without added mass. Where a body is given by
+  total_mass, its own mass is not known: then all bodies count by their total masses, added mass
+  included, in the mean of the three axes.
 
 A scene:
 {example}
