@@ -50,7 +50,6 @@ pub enum CliError {
     #[cfg(feature = "chart")]
     #[error(transparent)]
     Reference(#[from] UnknownReference),
-    #[cfg(feature = "chart")]
     #[error("no thread can be started: {0}")]
     Thread(#[source] io::Error),
     #[cfg(feature = "chart")]

@@ -1,18 +1,21 @@
 //! Signals that end a command, so that it can clean up after itself.
 
 use std::io;
+use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-#[cfg(feature = "chart")]
-use {super::error::CliError, std::panic::resume_unwind, std::thread, std::time::Duration};
+use super::error::CliError;
 
 /// Time between two looks for a signal.
-#[cfg(feature = "chart")]
 const LOOK: Duration = Duration::from_millis(20);
+/// What a main thread has, in bytes.
+const STACK: usize = 8 << 20;
 
 #[cfg(unix)]
 const ENDING: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
@@ -20,7 +23,6 @@ const ENDING: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 const ENDING: [i32; 2] = [SIGINT, SIGTERM];
 
 /// Remembers that the user wants the command to end.
-#[derive(Clone)]
 pub struct Interrupt {
     signal: Arc<AtomicUsize>,
 }
@@ -47,35 +49,30 @@ impl Interrupt {
         Ok(Self { signal })
     }
 
-    /// The number of the signal that came, if one did.
-    pub fn signal(&self) -> Option<usize> {
-        match self.signal.load(Ordering::Relaxed) {
-            0 => None,
-            signal => Some(signal),
-        }
-    }
-
-    /// What `work` comes to; an error soon after a signal, wherever the work is: it goes on beside, and ends with the command.
-    #[cfg(feature = "chart")]
+    /// What `work` comes to, or the number of a signal, soon after it came: wherever the work is, it goes on beside and ends with the
+    /// command.
     pub fn heeding<T: Send + 'static>(
         &self,
-        work: impl FnOnce() -> T + Send + 'static,
-    ) -> Result<T, CliError> {
+        work: impl FnOnce() -> Result<T, CliError> + Send + 'static,
+    ) -> Result<Result<T, CliError>, usize> {
         let waiting = thread::current();
-        let worker = thread::Builder::new().spawn(move || {
+        let worker = thread::Builder::new().stack_size(STACK).spawn(move || {
             let done = work();
             waiting.unpark();
             done
         });
-        let worker = worker.map_err(CliError::Thread)?;
+        let worker = match worker {
+            Ok(worker) => worker,
+            Err(error) => return Ok(Err(CliError::Thread(error))),
+        };
         loop {
-            if let Some(signal) = self.signal() {
-                return Err(CliError::Stopped { signal });
+            match self.signal.load(Ordering::Relaxed) {
+                0 if worker.is_finished() => {
+                    return Ok(worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
+                }
+                0 => thread::park_timeout(LOOK),
+                signal => return Err(signal),
             }
-            if worker.is_finished() {
-                return Ok(worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
-            }
-            thread::park_timeout(LOOK);
         }
     }
 }

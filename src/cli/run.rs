@@ -1,7 +1,9 @@
 //! `lgvi run`: simulates a scene.
 
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
 
 use articulated_fluid::scene;
 use sim::file::{AtomicFile, CompleteFile, FileError};
@@ -142,11 +144,12 @@ fn indented(text: &str) -> String {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(args.scene.as_deref())?;
     loaded.warn_of_overlaps();
-    let mut simulation = args.simulation(&loaded)?;
+    let simulation = args.simulation(&loaded)?;
     // Before there is a file that an early signal would leave behind.
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
-    let mut csv = Csv::begin(args, &loaded)?;
-    simulate(&mut simulation, csv.as_mut(), &interrupt)?;
+    let csv = Csv::begin(args)?;
+    let rows = csv.as_ref().map(|csv| csv.rows(args, &loaded)).transpose()?;
+    let simulation = simulate(simulation, rows, &interrupt)?;
     let csv = csv.map(Csv::complete).transpose()?;
     let is_default = args.step.is_none() && args.accuracy.is_none();
     let summary = Summary::new(&simulation, &loaded.file, args.out.as_deref(), is_default);
@@ -160,35 +163,40 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
 
 /// Goes to the end, or to a signal.
 fn simulate(
-    simulation: &mut Simulation,
-    mut csv: Option<&mut Csv>,
+    simulation: Simulation,
+    mut rows: Option<Rows>,
     interrupt: &Interrupt,
-) -> Result<(), CliError> {
-    let steps = simulation.clock().steps();
-    let bar = progress::bar(steps, "{bar:40} {percent:>3}%, {eta} left");
-    while !simulation.is_done() {
-        let frame = simulation.advance()?;
-        if let (Some(csv), Some(frame)) = (&mut csv, frame) {
-            csv.row(&frame)?;
+) -> Result<Simulation, CliError> {
+    let clock = *simulation.clock();
+    let bar = progress::bar(clock.steps(), "{bar:40} {percent:>3}%, {eta} left");
+    let (mut simulation, shown) = (simulation, bar.clone());
+    let done = interrupt.heeding(move || {
+        while !simulation.is_done() {
+            let frame = simulation.advance()?;
+            if let (Some(rows), Some(frame)) = (&mut rows, frame) {
+                rows.write(&frame)?;
+            }
+            shown.set_position(simulation.steps());
         }
-        bar.set_position(simulation.steps());
-        if let Some(signal) = interrupt.signal() {
-            let t = simulation.state().t;
-            return Err(CliError::Interrupted { t, signal });
-        }
-    }
-    Ok(())
+        rows.map_or(Ok(()), Rows::end)?;
+        Ok(simulation)
+    });
+    bar.finish_and_clear();
+    done.unwrap_or_else(|signal| {
+        let t = clock.time(bar.position());
+        Err(CliError::Interrupted { t, signal })
+    })
 }
 
 /// The trajectory's file in the making.
-struct Csv<'a> {
-    path: &'a Path,
-    table: Table<AtomicFile>,
+struct Csv {
+    path: PathBuf,
+    file: AtomicFile,
 }
 
-impl<'a> Csv<'a> {
+impl Csv {
     /// Begins it, if there is to be one: what is wrong with it shows before the run.
-    fn begin(args: &'a Args, loaded: &Loaded) -> Result<Option<Self>, CliError> {
+    fn begin(args: &Args) -> Result<Option<Self>, CliError> {
         let Some(path) = args.out.as_deref() else {
             return Ok(None);
         };
@@ -196,39 +204,63 @@ impl<'a> Csv<'a> {
             return Err(CliError::OutputFormat(path.to_owned()));
         }
         let file = output::begin(path, args.scene.as_deref())?;
-        let table = match args.all_columns {
-            true => Table::with_all_columns(file, &loaded.scene),
-            false => Table::new(file, &loaded.scene),
-        };
-        let table = table.map_err(|error| CliError::output(path, error.into()))?;
-        Ok(Some(Self { path, table }))
+        let path = path.to_owned();
+        Ok(Some(Self { path, file }))
     }
 
-    fn row(&mut self, frame: &Frame) -> Result<(), CliError> {
-        let written = self.table.row(frame).map_err(FileError::from);
-        written.map_err(|source| CliError::output(self.path, source))
+    /// What writes it, beside.
+    fn rows(&self, args: &Args, loaded: &Loaded) -> Result<Rows, CliError> {
+        let table = self.file.handle().and_then(|file| {
+            let file = BufWriter::new(file);
+            match args.all_columns {
+                true => Table::with_all_columns(file, &loaded.scene),
+                false => Table::new(file, &loaded.scene),
+            }
+        });
+        let path = self.path.clone();
+        match table {
+            Ok(table) => Ok(Rows { path, table }),
+            Err(error) => Err(CliError::output(&path, error.into())),
+        }
     }
 
-    /// Writes the rest of it.
-    fn complete(self) -> Result<CompleteCsv<'a>, CliError> {
+    fn complete(self) -> Result<CompleteCsv, CliError> {
         let path = self.path;
-        match self.table.into_inner().complete() {
+        match self.file.complete() {
             Ok(file) => Ok(CompleteCsv { path, file }),
-            Err(source) => Err(CliError::output(path, source)),
+            Err(source) => Err(CliError::output(&path, source)),
         }
     }
 }
 
+/// The trajectory on its way to the file.
+struct Rows {
+    path: PathBuf,
+    table: Table<BufWriter<File>>,
+}
+
+impl Rows {
+    fn write(&mut self, frame: &Frame) -> Result<(), CliError> {
+        let written = self.table.row(frame).map_err(FileError::from);
+        written.map_err(|source| CliError::output(&self.path, source))
+    }
+
+    fn end(self) -> Result<(), CliError> {
+        let written = self.table.into_inner().flush().map_err(FileError::from);
+        written.map_err(|source| CliError::output(&self.path, source))
+    }
+}
+
 /// The trajectory's file, whole and not yet in its place.
-struct CompleteCsv<'a> {
-    path: &'a Path,
+struct CompleteCsv {
+    path: PathBuf,
     file: CompleteFile,
 }
 
-impl CompleteCsv<'_> {
+impl CompleteCsv {
     fn place(self) -> Result<(), CliError> {
         let placed = self.file.place();
-        placed.map_err(|source| CliError::output(self.path, source))
+        placed.map_err(|source| CliError::output(&self.path, source))
     }
 }
 

@@ -111,6 +111,14 @@ impl AtomicFile {
         })
     }
 
+    /// Another handle, for a thread that may be given up: the file is gone when this one is, whoever still writes.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn handle(&self) -> io::Result<File> {
+        self.file.get_ref().try_clone()
+    }
+
     /// Puts the file in its place.
     ///
     /// # Errors

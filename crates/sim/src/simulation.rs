@@ -12,11 +12,8 @@ use crate::run::Run;
 use crate::schedule::{Due, Schedule};
 use crate::watch::Watch;
 
-/// The most steps that [`Simulation::advance`] takes at once; of many bodies, fewer.
+/// The most steps that [`Simulation::advance`] takes at once.
 pub const CHUNK: u64 = 100;
-
-/// As many steps of a single body it takes at most, if it takes two steps: tens of milliseconds of the slowest method.
-const CHUNK_OF_BODIES: u64 = 1000;
 
 /// How a scene is to be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,9 +149,7 @@ impl Simulation {
             return Ok(None);
         };
         let due = self.plan.schedule.due(self.clock(), number);
-        let bodies = self.model.bodies().len() as u64;
-        let chunk = (CHUNK_OF_BODIES / bodies).clamp(1, CHUNK);
-        let stop = due.steps.min(self.steps() + chunk);
+        let stop = due.steps.min(self.steps() + CHUNK);
         self.run
             .advance(stop)
             .map_err(|error| self.refused(error))?;

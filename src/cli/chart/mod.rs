@@ -108,7 +108,8 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
 fn reference(problem: &Arc<Problem>, interrupt: &Interrupt) -> Result<Reference, CliError> {
     let _waiting = progress::waiting("finding the reference");
     let problem = problem.clone();
-    Ok(interrupt.heeding(move || Reference::new(&problem))??)
+    let found = interrupt.heeding(move || Ok(Reference::new(&problem)?));
+    found.unwrap_or_else(|signal| Err(CliError::Stopped { signal }))
 }
 
 /// What was measured, and its picture.
@@ -135,7 +136,7 @@ fn charted(
         Ok(Charted { curves, drawn })
     });
     bar.finish_and_clear();
-    charted?
+    charted.unwrap_or_else(|signal| Err(CliError::Stopped { signal }))
 }
 
 fn title(loaded: &Loaded, until: f64) -> String {

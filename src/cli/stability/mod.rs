@@ -195,5 +195,5 @@ fn mapped(
         Ok(Mapped { map, drawn })
     });
     bar.finish_and_clear();
-    mapped?
+    mapped.unwrap_or_else(|signal| Err(CliError::Stopped { signal }))
 }
