@@ -148,7 +148,10 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     // Before there is a file that an early signal would leave behind.
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
     let csv = Csv::begin(args)?;
-    let rows = csv.as_ref().map(|csv| csv.rows(args, &loaded)).transpose()?;
+    let rows = csv
+        .as_ref()
+        .map(|csv| csv.rows(args, &loaded))
+        .transpose()?;
     let simulation = simulate(simulation, rows, &interrupt)?;
     let csv = csv.map(Csv::complete).transpose()?;
     let is_default = args.step.is_none() && args.accuracy.is_none();
@@ -267,5 +270,7 @@ impl CompleteCsv {
 /// Whether a name that ends so promises what is no table.
 fn is_of_another_format(ending: &OsStr) -> bool {
     let others = ["html", "htm", "json", "svg", "png", "pdf", "toml"];
-    others.iter().any(|other| ending.eq_ignore_ascii_case(other))
+    others
+        .iter()
+        .any(|other| ending.eq_ignore_ascii_case(other))
 }

@@ -25,7 +25,11 @@ fn a_scene_without_end_is_refused() {
     if cfg!(unix) {
         refused("/dev/zero");
     }
-    fs::write(&path, SCENE.to_owned() + &"\n".repeat(MOST_BYTES - SCENE.len())).unwrap();
+    fs::write(
+        &path,
+        SCENE.to_owned() + &"\n".repeat(MOST_BYTES - SCENE.len()),
+    )
+    .unwrap();
     let output = lgvi(directory.path(), &["run", "s.toml", "--until", "0.01"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
@@ -34,7 +38,9 @@ fn a_scene_without_end_is_refused() {
 fn star(count: usize) -> String {
     let body = |i| format!("[[body]]\nname = 'b{i}'\nsemi_axes = [1, 1, 1]\n");
     let joint = |i| {
-        format!("[[joint]]\nparent = 'b0'\nchild = 'b{i}'\nat_parent = [0, 0, 0]\nat_child = [0, 0, 0]\n")
+        format!(
+            "[[joint]]\nparent = 'b0'\nchild = 'b{i}'\nat_parent = [0, 0, 0]\nat_child = [0, 0, 0]\n"
+        )
     };
     let bodies: String = (0..count).map(body).collect();
     let joints: String = (1..count).map(joint).collect();
@@ -60,7 +66,9 @@ fn many_overlaps_are_told_in_a_few_lines() {
 #[test]
 fn a_place_too_far_is_told_as_one() {
     let directory = directory();
-    let far = SCENE.replace("[0, 0, 0]  ", "[1e308, 0, 0]").replace("-0.4142", "-41.42");
+    let far = SCENE
+        .replace("[0, 0, 0]  ", "[1e308, 0, 0]")
+        .replace("-0.4142", "-41.42");
     fs::write(directory.path().join("s.toml"), far).unwrap();
     let output = lgvi(directory.path(), &["run", "s.toml"]);
     let message = text(&output.stderr);
@@ -100,7 +108,11 @@ fn what_a_terminal_would_obey_is_written_out() {
         is_plain(&output);
     }
     if cfg!(unix) {
-        fs::write(path.join(&file), SCENE.replace("[8, 1.5, 2]", "[80, 15, 20]")).unwrap();
+        fs::write(
+            path.join(&file),
+            SCENE.replace("[8, 1.5, 2]", "[80, 15, 20]"),
+        )
+        .unwrap();
         let output = format!("{name}.csv");
         let args = ["run", &file, "--until", "0.01", "--out", &output];
         let done = lgvi(path, &args);
@@ -127,10 +139,25 @@ fn large_numbers_are_told_with_exponents() {
         (&["--values", "1e300"][..], "1e300"),
         (&["--values", "1e300", "--parameter", "stiffness"], "1e300"),
         (&["--values", "1e-300", "--parameter", "spin"], "1e-300"),
-        (&["rest.toml", "--until", "1e300", "--steps", "1e299", "--parameter", "spin"], "1e300"),
+        (
+            &[
+                "rest.toml",
+                "--until",
+                "1e300",
+                "--steps",
+                "1e299",
+                "--parameter",
+                "spin",
+            ],
+            "1e300",
+        ),
     ] {
         let rest = ["--methods", "rk4", "--budget", "0.1", "--out", "m"];
-        let small: &[&str] = if args.contains(&"--until") { &[] } else { &["--until", "1", "--steps", "0.5"] };
+        let small: &[&str] = if args.contains(&"--until") {
+            &[]
+        } else {
+            &["--until", "1", "--steps", "0.5"]
+        };
         let args = [&["stability"], args, small, &rest].concat();
         let output = lgvi(directory.path(), &args);
         let told = [text(&output.stdout), text(&output.stderr)].concat();
@@ -150,8 +177,16 @@ fn large_numbers_are_told_with_exponents() {
 fn no_run_of_a_map_goes_beyond_its_end() {
     let directory = directory();
     let args = [
-        "stability", "--until", "1", "--steps", "0.3,0.4,0.5,1", "--values", "1", "--methods",
-        "rk4", "--json",
+        "stability",
+        "--until",
+        "1",
+        "--steps",
+        "0.3,0.4,0.5,1",
+        "--values",
+        "1",
+        "--methods",
+        "rk4",
+        "--json",
     ];
     let told = json(directory.path(), &args);
     let runs = told["methods"][0]["runs"].as_array().unwrap().iter();
@@ -163,11 +198,22 @@ fn no_run_of_a_map_goes_beyond_its_end() {
     }
     let args = ["stability", "--until", "1", "--steps", "0.5,2"];
     fails(&args, 2, &["--steps", "2 s", "--until", "1 s"]);
-    fails(&["stability", "--until", "1e-3"], 2, &["--steps", "0.004 s"]);
+    fails(
+        &["stability", "--until", "1e-3"],
+        2,
+        &["--steps", "0.004 s"],
+    );
 
     // Of the usual steps, those that fit.
     let args = [
-        "stability", "--until", "0.05", "--values", "1", "--methods", "rk4", "--json",
+        "stability",
+        "--until",
+        "0.05",
+        "--values",
+        "1",
+        "--methods",
+        "rk4",
+        "--json",
     ];
     let told = json(directory.path(), &args);
     let steps = serde_json::json!([0.004, 0.0063, 0.01, 0.016, 0.025, 0.04]);
@@ -179,7 +225,14 @@ fn no_run_of_a_map_goes_beyond_its_end() {
 fn no_more_stiffness_is_the_scene_itself() {
     let directory = directory();
     let args = [
-        "stability", "--until", "5", "--steps", "0.05", "--methods", "gauss-4", "--json",
+        "stability",
+        "--until",
+        "5",
+        "--steps",
+        "0.05",
+        "--methods",
+        "gauss-4",
+        "--json",
     ];
     let of = |more: &[&str]| {
         let told = json(directory.path(), &[&args, more].concat());

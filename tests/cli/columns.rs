@@ -57,7 +57,10 @@ fn names_of_ros_are_names_of_bodies() {
     let output = lgvi(path, &args);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let (header, rows) = table(&path.join("a.csv"));
-    assert!(header.contains(&"base_link/arm.1.qw".to_owned()), "{header:?}");
+    assert!(
+        header.contains(&"base_link/arm.1.qw".to_owned()),
+        "{header:?}"
+    );
     assert!(rows.iter().all(|row| row.len() == header.len()));
 }
 

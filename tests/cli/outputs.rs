@@ -46,8 +46,17 @@ mod full {
         let path = directory.path();
         let run = ["run", "--until", "1", "--out", "o.csv"];
         let stability = [
-            "stability", "--until", "1", "--values", "1", "--steps", "0.5", "--methods", "rk4",
-            "--out", "o",
+            "stability",
+            "--until",
+            "1",
+            "--values",
+            "1",
+            "--steps",
+            "0.5",
+            "--methods",
+            "rk4",
+            "--out",
+            "o",
         ];
         let mut commands = vec![&run[..]];
         if cfg!(feature = "chart") {
@@ -67,7 +76,12 @@ mod full {
     #[test]
     fn help_that_cannot_be_written_is_a_failure() {
         let directory = directory();
-        for args in [&["--help"][..], &["run", "--help"], &["--version"], &["methods"]] {
+        for args in [
+            &["--help"][..],
+            &["run", "--help"],
+            &["--version"],
+            &["methods"],
+        ] {
             let output = to_full(directory.path(), args);
             assert_eq!(output.status.code(), Some(1), "{args:?}");
             assert!(text(&output.stderr).contains("stdout cannot be written"));

@@ -9,9 +9,7 @@ use std::time::Duration;
 use super::{command, directory, files, lgvi, table, text};
 
 /// A run without end.
-const RUN: [&str; 7] = [
-    "run", "--until", "1e6", "--every", "1000", "--out", "a.csv",
-];
+const RUN: [&str; 7] = ["run", "--until", "1e6", "--every", "1000", "--out", "a.csv"];
 
 /// Starts a command; it is at work once there are so many files.
 fn started(directory: &Path, mut command: Command, count: usize) -> Child {
@@ -66,7 +64,13 @@ fn an_interrupted_run_leaves_nothing() {
 fn an_interrupted_experiment_leaves_nothing() {
     let chart = ["chart", "--until", "1e5"];
     let stability = [
-        "stability", "--until", "1e9", "--budget", "1e6", "--values", "1",
+        "stability",
+        "--until",
+        "1e9",
+        "--budget",
+        "1e6",
+        "--values",
+        "1",
     ];
     for (args, (signal, code)) in [&chart[..], &stability].into_iter().zip(SIGNALS) {
         let directory = directory();

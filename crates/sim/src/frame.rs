@@ -72,7 +72,9 @@ impl Frame {
         // From the first body, so that a far origin takes no digits, and in parts of the whole, as masses may be of any size.
         let (first, total) = (self.position(), masses.iter().sum::<f64>());
         let bodies = self.centres.iter().zip(masses);
-        bodies.fold(first, |centre, (x, mass)| centre + (*x - first) * (mass / total))
+        bodies.fold(first, |centre, (x, mass)| {
+            centre + (*x - first) * (mass / total)
+        })
     }
 
     /// The angular momentum about the point $c$, $(x - c) \times p_x + \sum_i R_i p_i$, kg m²/s, reference frame.

@@ -39,7 +39,9 @@ impl Overlaps {
         match (self.more, self.is_complete) {
             (0, true) => None,
             (more, true) => Some(format!("{more} more pairs of bodies overlap")),
-            (more, false) => Some(format!("{more} more pairs of bodies overlap, or still more")),
+            (more, false) => Some(format!(
+                "{more} more pairs of bodies overlap, or still more"
+            )),
         }
     }
 }

@@ -179,7 +179,12 @@ fn thousands_of_bodies_are_swept() {
     }
     let scene = parse(&text);
     let start = std::time::Instant::now();
-    let Overlaps { first: overlaps, more: 0, is_complete: true } = scene.overlaps(usize::MAX) else {
+    let Overlaps {
+        first: overlaps,
+        more: 0,
+        is_complete: true,
+    } = scene.overlaps(usize::MAX)
+    else {
         panic!("all of them");
     };
     println!("{} bodies in {:?}", n * n * n, start.elapsed());

@@ -118,14 +118,21 @@ fn the_extra_columns_are_those_of_the_motion() {
         let text = String::from_utf8(table.into_inner()).unwrap();
         let (header, rows) = read(&text);
         let index = |name: String| header.iter().position(|column| *column == name).unwrap();
-        let three = |row: &[f64], names: [&str; 3]| Vec3(names.map(|name| row[index(name.to_owned())]));
+        let three =
+            |row: &[f64], names: [&str; 3]| Vec3(names.map(|name| row[index(name.to_owned())]));
         let body = |row: &[f64], i: usize| {
             let name = &scene.bodies[i].name;
             Vec3(["x", "y", "z"].map(|axis| row[index(format!("{name}.{axis}"))]))
         };
         for row in &rows {
-            let (c, l) = (three(row, ["cx", "cy", "cz"]), three(row, ["lx", "ly", "lz"]));
-            let (p, about) = (three(row, ["px", "py", "pz"]), three(row, ["lcx", "lcy", "lcz"]));
+            let (c, l) = (
+                three(row, ["cx", "cy", "cz"]),
+                three(row, ["lx", "ly", "lz"]),
+            );
+            let (p, about) = (
+                three(row, ["px", "py", "pz"]),
+                three(row, ["lcx", "lcy", "lcz"]),
+            );
             // The carried momentum and that of the velocities differ by the rounding of the steps.
             assert!((l - c.cross(p) - about).norm() <= 1e-11 * (1.0 + l.norm()));
             let (mut sum, mut masses) = (Vec3::zero(), 0.0);
@@ -137,11 +144,16 @@ fn the_extra_columns_are_those_of_the_motion() {
             assert!((sum * (1.0 / masses) - c).norm() <= 1e-13 * (1.0 + c.norm()));
         }
         for three_rows in rows.windows(3) {
-            let [before, now, after] = three_rows else { continue };
+            let [before, now, after] = three_rows else {
+                continue;
+            };
             let moved = (body(after, 0) - body(before, 0)) * (1.0 / (after[0] - before[0]));
             let v = three(now, ["vx", "vy", "vz"]);
             // The rows' own step and that of the method, both of 1e-4 to 1e-3 s.
-            assert!((moved - v).norm() < 1e-2 * (1.0 + v.norm()), "{moved:?} {v:?}");
+            assert!(
+                (moved - v).norm() < 1e-2 * (1.0 + v.norm()),
+                "{moved:?} {v:?}"
+            );
         }
     }
 }

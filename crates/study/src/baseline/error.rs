@@ -29,7 +29,9 @@ pub enum BaselineError {
         every: f64,
     },
     /// The time asked for lies before the last step or after the end.
-    #[error("there is no state at t = {t:?}: ask for times that grow, here from {from:?} to {until:?}")]
+    #[error(
+        "there is no state at t = {t:?}: ask for times that grow, here from {from:?} to {until:?}"
+    )]
     Time {
         /// The time asked for.
         t: f64,

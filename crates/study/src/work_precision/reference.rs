@@ -94,7 +94,10 @@ impl Reference {
             "Reference: 8(5,3) in charts at {TOLERANCE:e}, which {CHECK} in {} steps confirms to {:.1e} rad and {:.1e} m. By t = {} s a \
              difference has grown {growth:.0e} times; rounding would be a radian {about} t = {time} s, and no trajectory means \
              anything beyond.",
-            self.check_steps, self.attitude, self.position, decimal(until)
+            self.check_steps,
+            self.attitude,
+            self.position,
+            decimal(until)
         )
     }
 }
