@@ -86,8 +86,7 @@ fn runge_kutta(
     let mut motion = Motion::new(&Pair::DP54, &model, &start, seconds, TOLERANCE)?;
     let mut frames = Vec::new();
     for t in times {
-        let frame = Frame::new(&model, motion.at(t)?.clone());
-        frames.push(frame.ok_or("a number is not finite")?);
+        frames.push(Frame::new(&model, motion.at(t)?.clone())?);
     }
     println!(
         "RK 4(5): {} steps at relative tolerance {:e} in {:.3} s",

@@ -14,7 +14,7 @@ pub enum ValueError {
     #[error("expected a whole number >= 1")]
     Count,
     #[cfg(feature = "chart")]
-    #[error("expected a finite number > 0")]
+    #[error("expected a finite number > 0; of the stiffness, 0 as well")]
     Multiple,
 }
 

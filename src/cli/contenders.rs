@@ -4,11 +4,13 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use study::contender::{Contender, Control, UnknownContender};
 use study::stability::{Parameter, UnknownParameter};
 
-use super::args::{ValueError, seconds};
+use super::args::ValueError;
 
-/// So many times: finite and positive.
+/// So many times, or so much more: finite and not negative. What of them may be zero depends on the parameter.
 pub fn multiple(text: &str) -> Result<f64, ValueError> {
-    seconds(text).map_err(|_| ValueError::Multiple)
+    let value = text.parse().map_err(|_| ValueError::Multiple)?;
+    let valid = f64::is_finite(value) && value >= 0.0;
+    valid.then_some(value.abs()).ok_or(ValueError::Multiple)
 }
 
 /// A method or a baseline by its name; help and errors tell them all.

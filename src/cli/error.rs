@@ -9,6 +9,7 @@ use articulated_fluid::{ModelError, SceneError};
 use figure::FigureError;
 use sim::SimError;
 use sim::file::FileError;
+use sim::number::decimal;
 #[cfg(feature = "chart")]
 use study::{stability::ParameterError, work_precision::UnknownReference};
 use thiserror::Error;
@@ -35,9 +36,13 @@ pub enum CliError {
         "--out -: stdout has the summary; give a file's name, or ./- for one that is called so"
     )]
     OutputIsDash,
+    #[error(
+        "--out {}: a trajectory is a CSV table, and the name says another format; give a name that ends in .csv", .0.display()
+    )]
+    OutputFormat(PathBuf),
     #[error("--out {}: {source}", path.display())]
     Output { path: PathBuf, source: FileError },
-    #[error("interrupted at t = {t} s; nothing was written")]
+    #[error("interrupted at t = {} s; nothing was written", decimal(*t))]
     Interrupted { t: f64, signal: usize },
     #[cfg(feature = "chart")]
     #[error("interrupted; nothing was written")]
@@ -45,6 +50,11 @@ pub enum CliError {
     #[cfg(feature = "chart")]
     #[error(transparent)]
     Reference(#[from] UnknownReference),
+    #[error("no thread can be started: {0}")]
+    Thread(#[source] io::Error),
+    #[cfg(feature = "chart")]
+    #[error("--steps: a step of {} s is longer than the run; give shorter ones, or a longer --until than {} s", decimal(*step), decimal(*until))]
+    StepBeyondEnd { step: f64, until: f64 },
     #[cfg(feature = "chart")]
     #[error("--parameter: {0}")]
     Parameter(#[from] ParameterError),
@@ -84,15 +94,15 @@ impl CliError {
     /// The exit code that tells this error's kind.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Scene(_) | Self::Model { .. } | Self::OutputIsScene(_) | Self::OutputIsDash => {
-                USAGE
-            }
+            Self::Scene(_) | Self::Model { .. } => USAGE,
+            Self::OutputIsScene(_) | Self::OutputIsDash | Self::OutputFormat(_) => USAGE,
+            Self::Output { source, .. } if source.is_of_the_path() => USAGE,
             Self::Sim(error) => match error {
                 SimError::Step { .. } | SimError::NotFinite { .. } | SimError::Pilot(_) => FAILURE,
                 _ => USAGE,
             },
             #[cfg(feature = "chart")]
-            Self::Parameter(_) => USAGE,
+            Self::Parameter(_) | Self::StepBeyondEnd { .. } => USAGE,
             Self::Interrupted { signal, .. } => signalled(*signal),
             #[cfg(feature = "chart")]
             Self::Stopped { signal } => signalled(*signal),

@@ -4,54 +4,60 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use figure::Rendered;
-use sim::file::{AtomicFile, FileError, is_same};
+use sim::file::{AtomicFile, CompleteFile, FileError};
 
 use super::error::CliError;
+use super::output::{begin, refuse_dash};
+
+const ENDINGS: [&str; 3] = ["svg", "png", "csv"];
 
 /// Files in the making, in the order of [`ENDINGS`].
 pub struct Files(Vec<(PathBuf, AtomicFile)>);
 
-const ENDINGS: [&str; 3] = ["svg", "png", "csv"];
+/// Files that are whole, and not yet in their places.
+pub struct CompleteFiles(Vec<(PathBuf, CompleteFile)>);
 
 impl Files {
     /// Begins them: what is wrong with them shows before the runs.
-    pub fn create(stem: &Path, scene: Option<&Path>) -> Result<Self, CliError> {
-        if stem == Path::new("-") {
-            return Err(CliError::OutputIsDash);
-        }
-        let create = |ending| {
-            let path = with_ending(stem, ending).ok_or_else(|| CliError::Output {
-                path: stem.to_owned(),
-                source: FileError::Directory,
-            })?;
-            if scene.is_some_and(|scene| is_same(scene, &path)) {
-                return Err(CliError::OutputIsScene(path));
-            }
-            match AtomicFile::create(&path) {
-                Ok(output) => Ok((path, output)),
-                Err(source) => Err(CliError::Output { path, source }),
-            }
+    pub fn begin(stem: &Path, scene: Option<&Path>) -> Result<Self, CliError> {
+        refuse_dash(stem)?;
+        let directory = || CliError::output(stem, FileError::Directory);
+        let file = |ending| -> Result<_, CliError> {
+            let path = with_ending(stem, ending).ok_or_else(directory)?;
+            let file = begin(&path, scene)?;
+            Ok((path, file))
         };
-        let files: Result<_, _> = ENDINGS.into_iter().map(create).collect();
+        let files: Result<_, _> = ENDINGS.into_iter().map(file).collect();
         Ok(Self(files?))
     }
 
-    /// Writes all of them, and only then puts them in their places.
-    pub fn finish(mut self, drawn: &Rendered, table: &str) -> Result<Vec<PathBuf>, CliError> {
+    /// Writes all of them.
+    pub fn complete(self, drawn: &Rendered, table: &str) -> Result<CompleteFiles, CliError> {
         let contents = [drawn.svg.as_bytes(), &drawn.png, table.as_bytes()];
-        let refused = |path: &Path, source: FileError| CliError::Output {
-            path: path.to_owned(),
-            source,
+        let complete = |((path, mut file), content): ((PathBuf, AtomicFile), &[u8])| {
+            let written = file.write_all(content).map_err(FileError::from);
+            match written.and_then(|()| file.complete()) {
+                Ok(file) => Ok((path, file)),
+                Err(source) => Err(CliError::Output { path, source }),
+            }
         };
-        for ((path, output), content) in self.0.iter_mut().zip(contents) {
-            let written = output.write_all(content).and_then(|()| output.flush());
-            written.map_err(|error| refused(path, error.into()))?;
-        }
-        let finish = |(path, output): (PathBuf, AtomicFile)| match output.finish() {
-            Ok(()) => Ok(path),
-            Err(source) => Err(refused(&path, source)),
+        let files: Result<_, _> = self.0.into_iter().zip(contents).map(complete).collect();
+        Ok(CompleteFiles(files?))
+    }
+}
+
+impl CompleteFiles {
+    pub fn paths(&self) -> Vec<PathBuf> {
+        self.0.iter().map(|(path, _)| path.clone()).collect()
+    }
+
+    /// Puts them in their places.
+    pub fn place(self) -> Result<(), CliError> {
+        let place = |(path, file): (PathBuf, CompleteFile)| {
+            file.place()
+                .map_err(|source| CliError::Output { path, source })
         };
-        self.0.into_iter().map(finish).collect()
+        self.0.into_iter().try_for_each(place)
     }
 }
 

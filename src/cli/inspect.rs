@@ -52,7 +52,9 @@ struct Inspection<'a> {
     bodies: usize,
     #[serde(flatten)]
     account: &'a Account,
+    /// The first of them.
     overlaps: Vec<OverlapObject<'a>>,
+    more_overlaps: usize,
     notes: &'a [Note],
 }
 
@@ -76,13 +78,14 @@ impl<'a> From<&'a Overlap> for OverlapObject<'a> {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(args.scene.as_deref())?;
     let (account, overlaps) = (&loaded.smallest.account, &loaded.overlaps);
-    overlaps.iter().for_each(print::warning);
+    loaded.warn_of_overlaps();
     let inspection = Inspection {
         title: loaded.scene.title.as_deref(),
         scene: &loaded.file,
         bodies: loaded.scene.bodies.len(),
         account,
-        overlaps: overlaps.iter().map(OverlapObject::from).collect(),
+        overlaps: overlaps.first.iter().map(OverlapObject::from).collect(),
+        more_overlaps: overlaps.more,
         notes: &loaded.scene.notes,
     };
     match args.json {

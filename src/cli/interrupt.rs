@@ -1,11 +1,26 @@
-//! Signals that end a run, so that it can clean up after itself.
+//! Signals that end a command, so that it can clean up after itself.
 
 use std::io;
+use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
+
+use super::error::CliError;
+
+/// Time between two looks for a signal.
+const LOOK: Duration = Duration::from_millis(20);
+/// What a main thread has, in bytes.
+const STACK: usize = 8 << 20;
+
+#[cfg(unix)]
+const ENDING: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
+#[cfg(not(unix))]
+const ENDING: [i32; 2] = [SIGINT, SIGTERM];
 
 /// Remembers that the user wants the command to end.
 pub struct Interrupt {
@@ -13,10 +28,12 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Listens to the interrupt key and to requests to terminate, from now on.
+    /// Listens from now on to the interrupt key, to requests to terminate, and to a terminal that hangs up.
+    ///
+    /// What the caller has set to be ignored stays so, as `nohup` does it.
     pub fn listen() -> io::Result<Self> {
         let signal = Arc::new(AtomicUsize::new(0));
-        for number in [SIGINT, SIGTERM] {
+        for number in ENDING.into_iter().filter(|number| !is_ignored(*number)) {
             // The second one ends the command at once, whatever it is at.
             let came = Arc::new(AtomicBool::new(false));
             flag::register_conditional_shutdown(number, 128 + number, came.clone())?;
@@ -32,20 +49,49 @@ impl Interrupt {
         Ok(Self { signal })
     }
 
-    /// An error where a signal came.
-    #[cfg(feature = "chart")]
-    pub fn heed(&self) -> Result<(), super::error::CliError> {
-        match self.signal() {
-            Some(signal) => Err(super::error::CliError::Stopped { signal }),
-            None => Ok(()),
+    /// What `work` comes to, or the number of a signal, soon after it came: wherever the work is, it goes on beside and ends with the
+    /// command.
+    pub fn heeding<T: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Result<T, CliError> + Send + 'static,
+    ) -> Result<Result<T, CliError>, usize> {
+        let waiting = thread::current();
+        let worker = thread::Builder::new().stack_size(STACK).spawn(move || {
+            let done = work();
+            waiting.unpark();
+            done
+        });
+        let worker = match worker {
+            Ok(worker) => worker,
+            Err(error) => return Ok(Err(CliError::Thread(error))),
+        };
+        loop {
+            match self.signal.load(Ordering::Relaxed) {
+                0 if worker.is_finished() => {
+                    return Ok(worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
+                }
+                0 => thread::park_timeout(LOOK),
+                signal => return Err(signal),
+            }
         }
     }
+}
 
-    /// The number of the signal that came, if one did.
-    pub fn signal(&self) -> Option<usize> {
-        match self.signal.load(Ordering::Relaxed) {
-            0 => None,
-            signal => Some(signal),
-        }
+/// Whether the caller has set a signal to be ignored.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let mut action = std::mem::MaybeUninit::<libc::sigaction>::uninit();
+    #[allow(
+        unsafe_code,
+        reason = "it only asks, and the answer is read where there is one"
+    )]
+    unsafe {
+        libc::sigaction(signal, std::ptr::null(), action.as_mut_ptr()) == 0
+            && action.assume_init().sa_sigaction == libc::SIG_IGN
     }
+}
+
+#[cfg(not(unix))]
+fn is_ignored(_: i32) -> bool {
+    false
 }

@@ -11,6 +11,7 @@ mod files;
 mod inspect;
 mod interrupt;
 mod methods;
+mod output;
 mod print;
 mod progress;
 mod run;
@@ -85,18 +86,18 @@ impl Command {
 
 /// Runs the command that the arguments ask for; its errors go to stderr and make the exit code.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
-        Ok(cli) => cli,
+    let done = match Cli::try_parse() {
+        Ok(cli) => cli.command.execute(),
         Err(answer) => {
-            // Help that nobody reads to its end is no failure.
-            let _ = answer.print();
-            return match answer.use_stderr() {
-                true => ExitCode::from(error::USAGE),
-                false => ExitCode::SUCCESS,
-            };
+            let text = print::escaped(&answer.render().to_string(), |c| c == '\n');
+            if answer.use_stderr() {
+                print::stderr(&text);
+                return ExitCode::from(error::USAGE);
+            }
+            print::stdout(&text)
         }
     };
-    match cli.command.execute() {
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             print::error(&error);

@@ -16,14 +16,31 @@ pub fn stdout(text: &str) -> Result<(), CliError> {
     }
 }
 
-/// Writes an error to stderr, if it can be written.
-pub fn error(error: &CliError) {
-    let _ = writeln!(io::stderr(), "error: {error}");
+/// Writes text to stderr, if it can be written.
+pub fn stderr(text: &str) {
+    let _ = write!(io::stderr(), "{text}");
 }
 
-/// Writes what a user had better know to stderr, if it can be written.
+/// Writes an error to stderr, on a line.
+pub fn error(error: &CliError) {
+    let error = escaped(&error.to_string(), |_| false);
+    stderr(&format!("error: {error}\n"));
+}
+
+/// Writes what a user had better know to stderr, on a line.
 pub fn warning(what: &impl Display) {
-    let _ = writeln!(io::stderr(), "warning: {what}");
+    let what = escaped(&what.to_string(), |_| false);
+    stderr(&format!("warning: {what}\n"));
+}
+
+/// The text with its control characters written out, but for those to be kept: paths and arguments may have any, and a terminal
+/// obeys them.
+pub fn escaped(text: &str, is_kept: impl Fn(char) -> bool) -> String {
+    let escape = |c: char| match c.is_control() && !is_kept(c) {
+        true => c.escape_debug().to_string(),
+        false => c.to_string(),
+    };
+    text.chars().map(escape).collect()
 }
 
 /// Names are the user's own, and may hold what breaks lines.

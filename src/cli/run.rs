@@ -1,15 +1,19 @@
 //! `lgvi run`: simulates a scene.
 
-use std::path::{Path, PathBuf};
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
 
 use articulated_fluid::scene;
-use sim::file::{AtomicFile, FileError, is_same};
+use sim::file::{AtomicFile, CompleteFile, FileError};
 use sim::table::{COLUMNS, Column};
 use sim::{Choice, Frame, Method, Plan, Schedule, Simulation, Table};
 
 use super::args;
 use super::error::CliError;
 use super::interrupt::Interrupt;
+use super::output;
 use super::print;
 use super::progress;
 use super::scene::{Loaded, load};
@@ -40,6 +44,9 @@ pub struct Args {
     /// Write the trajectory to this CSV file: whole, or not at all
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
+    /// Write all columns to the CSV file: also the bodies' places, the head's velocity, the centre of mass and the angular momentum about it
+    #[arg(long, requires = "out")]
+    all_columns: bool,
     /// Steps between samples; t = 0 and the end are always sampled
     #[arg(long, value_name = "N", default_value = "10", value_parser = args::count, allow_hyphen_values = true)]
     every: u64,
@@ -79,7 +86,10 @@ impl Args {
 fn after_long_help() -> String {
     let columns: Vec<_> = COLUMNS
         .iter()
-        .map(|column: &Column| [column.label(), column.meaning.to_owned()])
+        .map(|column: &Column| {
+            let mark = if column.is_extra { "+" } else { "" };
+            [mark.to_owned(), column.label(), column.meaning.to_owned()]
+        })
         .collect();
     let columns = indented(&print::columns(&columns));
     let (example, keys) = (indented(scene::EXAMPLE), indented(&scene::reference()));
@@ -95,8 +105,14 @@ Examples:
   lgvi run --accuracy 1e-9                       stages and step as an error of 1e-9 rad and m asks for
   lgvi run --json | jq .energy_error_max_relative
 
-CSV columns, with 17 significant digits; the first row is t = 0, the last one --until:
+CSV columns, with 17 significant digits; the first row is t = 0, the last one --until.
+Those marked + are there with --all-columns:
 {columns}
+  NAME is the name of a body as in the scene. It may have dots: the column is what follows the last.
+  The centre of mass is that of the bodies' own masses, without added mass. Where a body is given by
+  total_mass, its own mass is not known: then all bodies count by their total masses, added mass
+  included, in the mean of the three axes.
+
 A scene:
 {example}
 The keys of a scene:
@@ -113,9 +129,9 @@ A method's default step suits the motion of the built-in scene; a livelier one n
 
 Exit codes:
   0    done
-  1    the run or a write failed; no CSV file is left, an old one is as it was
+  1    the run or a write failed, that of the summary too; no CSV file is left, an old one is as it was
   2    an argument or the scene is wrong
-  130  interrupted (143: terminated); as 1, the second time at once"
+  130  interrupted (143: terminated, 129: hung up); as 1, the second time at once"
     )
 }
 
@@ -127,80 +143,134 @@ fn indented(text: &str) -> String {
 /// Simulates the scene and prints the summary.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(args.scene.as_deref())?;
-    loaded.overlaps.iter().for_each(print::warning);
-    let mut simulation = args.simulation(&loaded)?;
+    loaded.warn_of_overlaps();
+    let simulation = args.simulation(&loaded)?;
     // Before there is a file that an early signal would leave behind.
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
-    let mut csv = Csv::begin(args, &loaded)?;
-    simulate(&mut simulation, csv.as_mut(), &interrupt)?;
-    if let Some(csv) = csv {
-        csv.finish()?;
-    }
+    let csv = Csv::begin(args)?;
+    let rows = csv
+        .as_ref()
+        .map(|csv| csv.rows(args, &loaded))
+        .transpose()?;
+    let simulation = simulate(simulation, rows, &interrupt)?;
+    let csv = csv.map(Csv::complete).transpose()?;
     let is_default = args.step.is_none() && args.accuracy.is_none();
     let summary = Summary::new(&simulation, &loaded.file, args.out.as_deref(), is_default);
     print::stdout(&match args.json {
         true => print::json(&summary)?,
         false => summary.text(),
-    })
+    })?;
+    // Last: a command that fails leaves the old table.
+    csv.map_or(Ok(()), CompleteCsv::place)
 }
 
 /// Goes to the end, or to a signal.
 fn simulate(
-    simulation: &mut Simulation,
-    mut csv: Option<&mut Csv>,
+    simulation: Simulation,
+    mut rows: Option<Rows>,
     interrupt: &Interrupt,
-) -> Result<(), CliError> {
-    let steps = simulation.clock().steps();
-    let bar = progress::bar(steps, "{bar:40} {percent:>3}%, {eta} left");
-    while !simulation.is_done() {
-        let frame = simulation.advance()?;
-        if let (Some(csv), Some(frame)) = (&mut csv, frame) {
-            csv.row(&frame)?;
+) -> Result<Simulation, CliError> {
+    let clock = *simulation.clock();
+    let bar = progress::bar(clock.steps(), "{bar:40} {percent:>3}%, {eta} left");
+    let (mut simulation, shown) = (simulation, bar.clone());
+    let done = interrupt.heeding(move || {
+        while !simulation.is_done() {
+            let frame = simulation.advance()?;
+            if let (Some(rows), Some(frame)) = (&mut rows, frame) {
+                rows.write(&frame)?;
+            }
+            shown.set_position(simulation.steps());
         }
-        bar.set_position(simulation.steps());
-        if let Some(signal) = interrupt.signal() {
-            let t = simulation.state().t;
-            return Err(CliError::Interrupted { t, signal });
-        }
-    }
-    Ok(())
+        rows.map_or(Ok(()), Rows::end)?;
+        Ok(simulation)
+    });
+    bar.finish_and_clear();
+    done.unwrap_or_else(|signal| {
+        let t = clock.time(bar.position());
+        Err(CliError::Interrupted { t, signal })
+    })
 }
 
 /// The trajectory's file in the making.
-struct Csv<'a> {
-    path: &'a Path,
-    table: Table<AtomicFile>,
+struct Csv {
+    path: PathBuf,
+    file: AtomicFile,
 }
 
-impl<'a> Csv<'a> {
+impl Csv {
     /// Begins it, if there is to be one: what is wrong with it shows before the run.
-    fn begin(args: &'a Args, loaded: &Loaded) -> Result<Option<Self>, CliError> {
+    fn begin(args: &Args) -> Result<Option<Self>, CliError> {
         let Some(path) = args.out.as_deref() else {
             return Ok(None);
         };
-        if path == Path::new("-") {
-            return Err(CliError::OutputIsDash);
+        if path.extension().is_some_and(is_of_another_format) {
+            return Err(CliError::OutputFormat(path.to_owned()));
         }
-        if args
-            .scene
-            .as_ref()
-            .is_some_and(|scene| is_same(scene, path))
-        {
-            return Err(CliError::OutputIsScene(path.to_owned()));
-        }
-        let table = AtomicFile::create(path).and_then(|file| Ok(Table::new(file, &loaded.scene)?));
-        let table = table.map_err(|source| CliError::output(path, source))?;
-        Ok(Some(Self { path, table }))
+        let file = output::begin(path, args.scene.as_deref())?;
+        let path = path.to_owned();
+        Ok(Some(Self { path, file }))
     }
 
-    fn row(&mut self, frame: &Frame) -> Result<(), CliError> {
+    /// What writes it, beside.
+    fn rows(&self, args: &Args, loaded: &Loaded) -> Result<Rows, CliError> {
+        let table = self.file.handle().and_then(|file| {
+            let file = BufWriter::new(file);
+            match args.all_columns {
+                true => Table::with_all_columns(file, &loaded.scene),
+                false => Table::new(file, &loaded.scene),
+            }
+        });
+        let path = self.path.clone();
+        match table {
+            Ok(table) => Ok(Rows { path, table }),
+            Err(error) => Err(CliError::output(&path, error.into())),
+        }
+    }
+
+    fn complete(self) -> Result<CompleteCsv, CliError> {
+        let path = self.path;
+        match self.file.complete() {
+            Ok(file) => Ok(CompleteCsv { path, file }),
+            Err(source) => Err(CliError::output(&path, source)),
+        }
+    }
+}
+
+/// The trajectory on its way to the file.
+struct Rows {
+    path: PathBuf,
+    table: Table<BufWriter<File>>,
+}
+
+impl Rows {
+    fn write(&mut self, frame: &Frame) -> Result<(), CliError> {
         let written = self.table.row(frame).map_err(FileError::from);
-        written.map_err(|source| CliError::output(self.path, source))
+        written.map_err(|source| CliError::output(&self.path, source))
     }
 
-    /// Puts it in its place.
-    fn finish(self) -> Result<(), CliError> {
-        let placed = self.table.into_inner().finish();
-        placed.map_err(|source| CliError::output(self.path, source))
+    fn end(self) -> Result<(), CliError> {
+        let written = self.table.into_inner().flush().map_err(FileError::from);
+        written.map_err(|source| CliError::output(&self.path, source))
     }
+}
+
+/// The trajectory's file, whole and not yet in its place.
+struct CompleteCsv {
+    path: PathBuf,
+    file: CompleteFile,
+}
+
+impl CompleteCsv {
+    fn place(self) -> Result<(), CliError> {
+        let placed = self.file.place();
+        placed.map_err(|source| CliError::output(&self.path, source))
+    }
+}
+
+/// Whether a name that ends so promises what is no table.
+fn is_of_another_format(ending: &OsStr) -> bool {
+    let others = ["html", "htm", "json", "svg", "png", "pdf", "toml"];
+    others
+        .iter()
+        .any(|other| ending.eq_ignore_ascii_case(other))
 }

@@ -2,13 +2,17 @@
 
 use std::path::Path;
 
-use articulated_fluid::scene::Overlap;
+use articulated_fluid::scene::Overlaps;
 use articulated_fluid::{Scene, Smallest};
 
 use super::error::CliError;
+use super::print;
 
 const BUILT_IN: &str = include_str!("../../scenes/fish-chain.toml");
 const BUILT_IN_NAME: &str = "fish-chain.toml (built in)";
+
+/// Overlaps that are told one by one.
+const TOLD: usize = 10;
 
 /// A scene, and what it is modelled with.
 pub struct Loaded {
@@ -17,7 +21,17 @@ pub struct Loaded {
     pub scene: Scene,
     pub smallest: Smallest,
     /// Bodies that share a place at the start.
-    pub overlaps: Vec<Overlap>,
+    pub overlaps: Overlaps,
+}
+
+impl Loaded {
+    /// Tells of the first overlaps, and how many more there are.
+    pub fn warn_of_overlaps(&self) {
+        self.overlaps.first.iter().for_each(print::warning);
+        if let Some(rest) = self.overlaps.rest() {
+            print::warning(&format_args!("and {rest}"));
+        }
+    }
 }
 
 /// Loads the scene in the file `path`, or the one that is built in.
@@ -32,7 +46,7 @@ pub fn load(path: Option<&Path>) -> Result<Loaded, CliError> {
     match scene.smallest() {
         Ok(smallest) => Ok(Loaded {
             smallest,
-            overlaps: scene.overlaps(),
+            overlaps: scene.overlaps(TOLD),
             file,
             scene,
         }),

@@ -79,7 +79,7 @@ fn what_is_asked_wrongly_is_refused_before_any_run() {
     );
     fails(&["chart", "--until", "0"], 2, &["> 0"]);
     fails(&["chart", "--out", "-"], 2, &["./-"]);
-    fails(&["chart", "--out", "there/"], 1, &["directory"]);
+    fails(&["chart", "--out", "there/"], 2, &["directory"]);
     fails(
         &["chart", "--out", "absent/chart"],
         1,

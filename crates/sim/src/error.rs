@@ -17,7 +17,7 @@ pub enum SimError {
     #[error(transparent)]
     Model(#[from] ModelError),
     /// A duration or a count is not positive and finite.
-    #[error("the {what} is {value}; expected a finite number > 0")]
+    #[error("the {what} is {}; expected a finite number > 0", decimal(*value))]
     NotPositive {
         /// What it is, with its unit.
         what: &'static str,
@@ -65,12 +65,24 @@ pub enum SimError {
     },
     /// What is measured of a state is not a number.
     #[error(
-        "at t = {t} s the energy or a momentum is too large for a number; check the scene's velocities and inertia"
+        "at t = {} s the {quantity} is too large for a number; check the scene's position, velocities and masses", decimal(*t)
     )]
     NotFinite {
         /// The time of the state, s.
         t: f64,
+        /// What it is.
+        quantity: &'static str,
     },
+}
+
+impl SimError {
+    /// That the state at `t` has no frame.
+    pub(crate) fn unmeasured(t: f64, error: ModelError) -> Self {
+        match error {
+            ModelError::NotFinite { quantity } => Self::NotFinite { t, quantity },
+            error => Self::Model(error),
+        }
+    }
 }
 
 /// The value, if it is finite and positive.

@@ -1,10 +1,12 @@
 //! A file that is written whole or not at all.
 
-use std::fs::{self, File, Metadata};
-use std::io::{self, BufWriter, Write};
+mod part;
+
+use std::fs::{self, File, Metadata, Permissions};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf, is_separator};
 
-use tempfile::{Builder, NamedTempFile, TempPath};
+use tempfile::TempPath;
 use thiserror::Error;
 
 /// Why a file cannot be written.
@@ -24,10 +26,7 @@ pub enum FileError {
     #[error("the path is of no use: {0}; give another name")]
     Path(#[source] io::Error),
     /// The directory takes no file.
-    #[error(
-        "no file can be made in {}: {source}; give a directory that exists and can be written",
-        directory.display()
-    )]
+    #[error("no file can be made in {}: {source}{}", directory.display(), advice(source))]
     Create {
         /// Where the file was to be made.
         directory: PathBuf,
@@ -39,7 +38,35 @@ pub enum FileError {
     Write(#[from] io::Error),
 }
 
+impl FileError {
+    /// Whether no file can be at this path, whatever the system allows.
+    pub fn is_of_the_path(&self) -> bool {
+        matches!(
+            self,
+            Self::Directory | Self::Special | Self::ReadOnly | Self::Path(_)
+        )
+    }
+}
+
+/// What helps where a directory takes no file.
+fn advice(error: &io::Error) -> &'static str {
+    match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => "; give a directory that exists",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "; give a directory that can be written"
+        }
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "; make room there, or give another directory"
+        }
+        _ => "",
+    }
+}
+
 /// A file in the making: beside its target until [`finish`](Self::finish), and gone without it.
+///
+/// It takes the permissions of the file that it replaces. Where the path is a symbolic link, it replaces the file behind the link, or
+/// makes it. A process that is killed leaves a hidden part beside the target, `.lgvi-*.part`; the next file made there removes it,
+/// and never one that a running process writes.
 ///
 /// ```
 /// use std::io::Write;
@@ -66,12 +93,13 @@ impl AtomicFile {
     /// # Errors
     /// [`FileError`] of a path that no file can be put at.
     pub fn create(path: &Path) -> Result<Self, FileError> {
-        let target = resolve(path)?;
+        let (target, replaced) = resolve(path)?;
         let directory = match target.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
-        let file = temporary(directory).map_err(|source| FileError::Create {
+        let file = part::make(directory, replaced.as_ref());
+        let file = file.map_err(|source| FileError::Create {
             directory: directory.to_owned(),
             source,
         })?;
@@ -83,18 +111,55 @@ impl AtomicFile {
         })
     }
 
+    /// Another handle, for a thread that may be given up: the file is gone when this one is, whoever still writes.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn handle(&self) -> io::Result<File> {
+        self.file.get_ref().try_clone()
+    }
+
     /// Puts the file in its place.
     ///
     /// # Errors
     /// [`FileError::Write`]; the old file, if any, is as it was.
     pub fn finish(self) -> Result<(), FileError> {
+        self.complete()?.place()
+    }
+
+    /// Writes all of it to the disk, and leaves only the place to be taken.
+    ///
+    /// # Errors
+    /// As [`finish`](Self::finish).
+    pub fn complete(self) -> Result<CompleteFile, FileError> {
         let file = self.file.into_inner().map_err(|error| error.into_error())?;
         file.sync_all()?;
-        drop(file);
-        self.temporary
-            .persist(self.target)
-            .map_err(|error| error.error)?;
-        Ok(())
+        Ok(CompleteFile {
+            file,
+            temporary: self.temporary,
+            target: self.target,
+        })
+    }
+}
+
+/// A file that is whole, and not yet in its place: for what is to be done before the old one goes. It is gone without
+/// [`place`](Self::place).
+pub struct CompleteFile {
+    /// Open, since its lock tells others that it is in use.
+    file: File,
+    temporary: TempPath,
+    target: PathBuf,
+}
+
+impl CompleteFile {
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// As [`AtomicFile::finish`].
+    pub fn place(self) -> Result<(), FileError> {
+        let placed = self.temporary.persist(self.target);
+        drop(self.file);
+        Ok(placed.map_err(|error| error.error)?)
     }
 }
 
@@ -123,8 +188,8 @@ pub fn is_same(a: &Path, b: &Path) -> bool {
     matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// The file to replace: behind symbolic links, and one that may be replaced.
-fn resolve(path: &Path) -> Result<PathBuf, FileError> {
+/// The file to replace, behind symbolic links, and its permissions; or the one to make.
+fn resolve(path: &Path) -> Result<(PathBuf, Option<Permissions>), FileError> {
     let text = path.as_os_str().as_encoded_bytes();
     if text.last().is_some_and(|&byte| is_separator(byte.into())) {
         return Err(FileError::Directory);
@@ -132,9 +197,14 @@ fn resolve(path: &Path) -> Result<PathBuf, FileError> {
     match fs::metadata(path) {
         Ok(old) => {
             check(&old)?;
-            fs::canonicalize(path).map_err(FileError::Path)
+            let target = fs::canonicalize(path).map_err(FileError::Path)?;
+            Ok((target, Some(old.permissions())))
         }
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(path.to_owned()),
+        // A chain of links that leads nowhere ends; one that goes round is another error.
+        Err(error) if error.kind() == ErrorKind::NotFound => match fs::read_link(path) {
+            Ok(to) => resolve(&path.parent().unwrap_or(Path::new("")).join(to)),
+            Err(_) => Ok((path.to_owned(), None)),
+        },
         Err(error) => Err(FileError::Path(error)),
     }
 }
@@ -149,19 +219,4 @@ fn check(old: &Metadata) -> Result<(), FileError> {
     } else {
         Ok(())
     }
-}
-
-fn temporary(directory: &Path) -> io::Result<NamedTempFile> {
-    fs::metadata(directory)?;
-    let mut builder = Builder::new();
-    builder.prefix(".lgvi-").suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any new file, less the user's mask: temporary files are private otherwise.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let file = builder.tempfile_in(directory);
-    // Its own message has the temporary file's name, which tells the user nothing.
-    file.map_err(|error| error.kind().into())
 }

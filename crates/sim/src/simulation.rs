@@ -93,7 +93,7 @@ impl Simulation {
         };
         let run = Run::new(integrator, scene.initial_state()?, clock);
         let start = run.state().clone();
-        let first = Frame::new(&model, start).ok_or(SimError::NotFinite { t: 0.0 })?;
+        let first = Frame::new(&model, start).map_err(|error| SimError::unmeasured(0.0, error))?;
         Ok(Self {
             title: scene.title.clone(),
             account: smallest.account,
@@ -165,7 +165,7 @@ impl Simulation {
 
     fn frame(&mut self, due: &Due) -> Result<Frame, SimError> {
         let state = self.run.look(due).map_err(|error| self.refused(error))?;
-        Frame::new(&self.model, state).ok_or(SimError::NotFinite { t: due.t })
+        Frame::new(&self.model, state).map_err(|error| SimError::unmeasured(due.t, error))
     }
 
     fn refused(&self, source: StepError) -> SimError {

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use articulated_fluid::Scene;
-use lie::SO3;
+use lie::{SO3, Vec3};
 
 use crate::frame::Frame;
 
@@ -16,65 +16,93 @@ pub struct Column {
     pub names: &'static [&'static str],
     /// What they are, with the unit.
     pub meaning: &'static str,
+    /// Whether they are only in a table of [all columns](Table::with_all_columns).
+    pub is_extra: bool,
     read: Read,
 }
 
-/// How numbers are read of a frame, into where those of the row before still stand.
+/// What the numbers of a row are read of.
+struct Seen<'a> {
+    frame: &'a Frame,
+    /// The centre of mass, m.
+    centre: Vec3,
+}
+
+/// How numbers are read, into where those of the row before still stand.
 #[derive(Clone, Copy, Debug)]
 enum Read {
-    Whole(fn(&Frame, &mut [f64])),
+    Whole(fn(&Seen, &mut [f64])),
     /// Of the body with this number; columns of bodies side by side are written body by body.
-    Body(fn(&Frame, usize, &mut [f64])),
+    Body(fn(&Seen, usize, &mut [f64])),
 }
 
 const fn whole(
     names: &'static [&'static str],
     meaning: &'static str,
-    read: fn(&Frame, &mut [f64]),
+    read: fn(&Seen, &mut [f64]),
 ) -> Column {
-    let read = Read::Whole(read);
     Column {
         names,
         meaning,
-        read,
+        is_extra: false,
+        read: Read::Whole(read),
     }
 }
 
 const fn body(
     names: &'static [&'static str],
     meaning: &'static str,
-    read: fn(&Frame, usize, &mut [f64]),
+    read: fn(&Seen, usize, &mut [f64]),
 ) -> Column {
-    let read = Read::Body(read);
     Column {
         names,
         meaning,
-        read,
+        is_extra: false,
+        read: Read::Body(read),
+    }
+}
+
+const fn extra(column: Column) -> Column {
+    Column {
+        is_extra: true,
+        ..column
     }
 }
 
 /// The columns of a [`Table`], in its order.
 #[rustfmt::skip]
 pub const COLUMNS: &[Column] = &[
-    whole(&["t"], "time, s", |frame, to| to.fill(frame.t())),
-    whole(&["x", "y", "z"], "mass centre of the first body in the reference frame, m", |frame, to| {
-        to.copy_from_slice(&frame.position().0);
+    whole(&["t"], "time, s", |seen, to| to.fill(seen.frame.t())),
+    whole(&["x", "y", "z"], "mass centre of the first body in the reference frame, m", |seen, to| {
+        to.copy_from_slice(&seen.frame.position().0);
     }),
-    body(&["qw", "qx", "qy", "qz"], "unit quaternion from body to reference frame, its sign continuous", |frame, i, to| {
-        let q = frame.attitudes().get(i).map_or([0.0; 4], SO3::to_quaternion);
+    extra(whole(&["vx", "vy", "vz"], "its velocity in the reference frame, m/s", |seen, to| {
+        to.copy_from_slice(&seen.frame.velocity_of_first().0);
+    })),
+    body(&["qw", "qx", "qy", "qz"], "unit quaternion from body to reference frame, its sign continuous", |seen, i, to| {
+        let q = seen.frame.attitudes().get(i).map_or([0.0; 4], SO3::to_quaternion);
         to.copy_from_slice(&nearer(q, to));
     }),
-    body(&["wx", "wy", "wz"], "angular velocity of the body in its own frame, rad/s", |frame, i, to| {
-        to.copy_from_slice(&frame.rates().nth(i).map_or([0.0; 3], |rate| rate.0));
+    body(&["wx", "wy", "wz"], "angular velocity of the body in its own frame, rad/s", |seen, i, to| {
+        to.copy_from_slice(&seen.frame.rates().nth(i).map_or([0.0; 3], |rate| rate.0));
     }),
-    whole(&["energy"], "of bodies and fluid, kinetic and potential, J", |frame, to| to.fill(frame.sample.energy)),
-    whole(&["px", "py", "pz"], "linear momentum from the velocities, in the reference frame, kg m/s", |frame, to| {
-        to.copy_from_slice(&frame.sample.linear.0);
+    extra(body(&["x", "y", "z"], "mass centre of the body in the reference frame, m", |seen, i, to| {
+        to.copy_from_slice(&seen.frame.centres.get(i).map_or([0.0; 3], |centre| centre.0));
+    })),
+    whole(&["energy"], "of bodies and fluid, kinetic and potential, J", |seen, to| to.fill(seen.frame.sample.energy)),
+    whole(&["px", "py", "pz"], "linear momentum from the velocities, in the reference frame, kg m/s", |seen, to| {
+        to.copy_from_slice(&seen.frame.sample.linear.0);
     }),
-    whole(&["lx", "ly", "lz"], "angular momentum about the origin in the reference frame, kg m^2/s", |frame, to| {
-        to.copy_from_slice(&frame.sample.angular.0);
+    whole(&["lx", "ly", "lz"], "angular momentum about the origin in the reference frame, kg m^2/s", |seen, to| {
+        to.copy_from_slice(&seen.frame.sample.angular.0);
     }),
-    whole(&["orthogonality"], "largest ||I - R^T R||_F over the bodies", |frame, to| to.fill(frame.sample.orthogonality)),
+    extra(whole(&["cx", "cy", "cz"], "centre of mass in the reference frame, m; of which masses, see below", |seen, to| {
+        to.copy_from_slice(&seen.centre.0);
+    })),
+    extra(whole(&["lcx", "lcy", "lcz"], "angular momentum of bodies and fluid about it, kg m^2/s", |seen, to| {
+        to.copy_from_slice(&seen.frame.angular_about(seen.centre).0);
+    })),
+    whole(&["orthogonality"], "largest ||I - R^T R||_F over the bodies", |seen, to| to.fill(seen.frame.sample.orthogonality)),
 ];
 
 /// The one of `q` and `-q`, which are the same attitude, that is nearer to `last`.
@@ -97,33 +125,51 @@ impl Column {
     }
 }
 
-/// The columns in the order of the table, those of bodies with the number of the body.
-fn columns(bodies: usize) -> impl Iterator<Item = (&'static Column, usize)> {
-    let alike = |a: &Column, b: &Column| a.is_of_bodies() == b.is_of_bodies();
-    COLUMNS.chunk_by(alike).flat_map(move |group| {
+/// The columns in the order of a table, those of bodies with the number of the body.
+fn columns(
+    chosen: &[&'static Column],
+    bodies: usize,
+) -> impl Iterator<Item = (&'static Column, usize)> {
+    let alike = |a: &&Column, b: &&Column| a.is_of_bodies() == b.is_of_bodies();
+    chosen.chunk_by(alike).flat_map(move |group| {
         let times = if group[0].is_of_bodies() { bodies } else { 1 };
-        (0..times).flat_map(move |i| group.iter().map(move |column| (column, i)))
+        (0..times).flat_map(move |i| group.iter().map(move |column| (*column, i)))
     })
 }
 
 /// Writes a row for each frame, with all digits, under a header.
 pub struct Table<W> {
     out: W,
-    bodies: usize,
+    chosen: Vec<&'static Column>,
+    /// What the bodies count in the centre of mass, kg.
+    masses: Vec<f64>,
     row: Vec<f64>,
     line: String,
 }
 
 impl<W: Write> Table<W> {
-    /// Writes the header for the bodies of a scene.
+    /// Writes the header for the bodies of a scene, without the [extra](Column::is_extra) columns.
     ///
     /// # Errors
     /// Those of `out`.
-    pub fn new(mut out: W, scene: &Scene) -> io::Result<Self> {
-        let names = columns(scene.bodies.len()).flat_map(|(column, i)| {
+    pub fn new(out: W, scene: &Scene) -> io::Result<Self> {
+        Self::of(out, scene, |column| !column.is_extra)
+    }
+
+    /// Writes the header of all columns for the bodies of a scene.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn with_all_columns(out: W, scene: &Scene) -> io::Result<Self> {
+        Self::of(out, scene, |_| true)
+    }
+
+    fn of(mut out: W, scene: &Scene, is_chosen: fn(&Column) -> bool) -> io::Result<Self> {
+        let chosen: Vec<_> = COLUMNS.iter().filter(|column| is_chosen(column)).collect();
+        let names = columns(&chosen, scene.bodies.len()).flat_map(|(column, i)| {
             let name = move |name: &&str| match column.read {
                 Read::Whole(_) => (*name).to_owned(),
-                Read::Body(_) => format!("{}.{name}", scene.bodies[i].name),
+                Read::Body(_) => quoted(format!("{}.{name}", scene.bodies[i].name)),
             };
             column.names.iter().map(name)
         });
@@ -131,7 +177,8 @@ impl<W: Write> Table<W> {
         writeln!(out, "{}", names.join(","))?;
         Ok(Self {
             out,
-            bodies: scene.bodies.len(),
+            chosen,
+            masses: scene.centre_masses(),
             row: vec![0.0; names.len()],
             line: String::new(),
         })
@@ -142,15 +189,17 @@ impl<W: Write> Table<W> {
     /// # Errors
     /// Those of `out`; [`InvalidInput`](io::ErrorKind::InvalidInput) of a frame with another number of bodies.
     pub fn row(&mut self, frame: &Frame) -> io::Result<()> {
-        if frame.bodies() != self.bodies {
+        if frame.bodies() != self.masses.len() {
             return Err(io::ErrorKind::InvalidInput.into());
         }
+        let centre = frame.centre_of(&self.masses);
+        let seen = Seen { frame, centre };
         let mut rest = &mut self.row[..];
-        for (column, i) in columns(self.bodies) {
+        for (column, i) in columns(&self.chosen, self.masses.len()) {
             let (to, after) = rest.split_at_mut(column.names.len());
             match column.read {
-                Read::Whole(read) => read(frame, to),
-                Read::Body(read) => read(frame, i, to),
+                Read::Whole(read) => read(&seen, to),
+                Read::Body(read) => read(&seen, i, to),
             }
             rest = after;
         }
@@ -172,5 +221,13 @@ impl<W: Write> Table<W> {
     /// What the rows were written to.
     pub fn into_inner(self) -> W {
         self.out
+    }
+}
+
+/// A name as a field of CSV: in quotes where it needs them, which no name of a scene file does.
+fn quoted(name: String) -> String {
+    match name.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", name.replace('"', "\"\"")),
+        false => name,
     }
 }

@@ -4,7 +4,9 @@ mod json;
 mod report;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use figure::Rendered;
 use indicatif::ProgressBar;
 use sim::number::decimal;
 use study::contender::{Contender, Problem};
@@ -71,24 +73,20 @@ Exit codes:
   0    done, even if single runs of the chart failed
   1    there is no reference, or a write failed; each file is whole, or as it was
   2    an argument or the scene is wrong
-  130  interrupted (143: terminated); as 1, the second time at once";
+  130  interrupted (143: terminated, 129: hung up); as 1, the second time at once";
 
 /// Runs the methods, writes the files and prints the table.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(args.scene.as_deref())?;
-    loaded.overlaps.iter().for_each(print::warning);
+    loaded.warn_of_overlaps();
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
-    let files = Files::create(&args.out, args.scene.as_deref())?;
-    let problem = Problem {
+    let files = Files::begin(&args.out, args.scene.as_deref())?;
+    let problem = Arc::new(Problem {
         model: loaded.smallest.model.clone(),
         start: loaded.smallest.start.clone(),
         until: args.until,
-    };
-    let reference = {
-        let _waiting = progress::waiting("finding the reference");
-        Reference::new(&problem)?
-    };
-    interrupt.heed()?;
+    });
+    let reference = Arc::new(reference(&problem, &interrupt)?);
     if reference.attitude > MEANINGFUL {
         print::warning(&format_args!(
             "the reference is known to {:.0e} rad only, and errors of attitudes say little: trajectories mean nothing beyond t = {:.0} s, \
@@ -96,14 +94,49 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
             reference.attitude, reference.horizon.time
         ));
     }
-    let curves = sweep(&args.methods, &problem, &reference, &interrupt)?;
-    let figure = picture(&curves, &problem, &reference, &title(&loaded, args.until));
-    let written = files.finish(&figure.render()?, &csv(&curves, args.until))?;
-    let report = Report::new(&loaded, &problem, &reference, &curves, &written);
+    let Charted { curves, drawn } = charted(args, &loaded, &problem, &reference, &interrupt)?;
+    let files = files.complete(&drawn, &csv(&curves, args.until))?;
+    let paths = files.paths();
+    let report = Report::new(&loaded, &problem, &reference, &curves, &paths);
     print::stdout(&match args.json {
         true => print::json(&json::Object::new(&report))?,
         false => report.text(),
-    })
+    })?;
+    files.place()
+}
+
+fn reference(problem: &Arc<Problem>, interrupt: &Interrupt) -> Result<Reference, CliError> {
+    let _waiting = progress::waiting("finding the reference");
+    let problem = problem.clone();
+    let found = interrupt.heeding(move || Ok(Reference::new(&problem)?));
+    found.unwrap_or_else(|signal| Err(CliError::Stopped { signal }))
+}
+
+/// What was measured, and its picture.
+struct Charted {
+    curves: Vec<Curve>,
+    drawn: Rendered,
+}
+
+fn charted(
+    args: &Args,
+    loaded: &Loaded,
+    problem: &Arc<Problem>,
+    reference: &Arc<Reference>,
+    interrupt: &Interrupt,
+) -> Result<Charted, CliError> {
+    let (methods, title) = (args.methods.clone(), title(loaded, args.until));
+    let (problem, reference) = (problem.clone(), reference.clone());
+    let template = "{bar:40} {pos} of {len} methods, {msg}";
+    let bar = progress::bar(methods.len() as u64, template);
+    let shown = bar.clone();
+    let charted = interrupt.heeding(move || {
+        let curves = sweep(&methods, &problem, &reference, &shown);
+        let drawn = picture(&curves, &problem, &reference, &title).render()?;
+        Ok(Charted { curves, drawn })
+    });
+    bar.finish_and_clear();
+    charted.unwrap_or_else(|signal| Err(CliError::Stopped { signal }))
 }
 
 fn title(loaded: &Loaded, until: f64) -> String {
@@ -116,30 +149,21 @@ fn sweep(
     methods: &[Contender],
     problem: &Problem,
     reference: &Reference,
-    interrupt: &Interrupt,
-) -> Result<Vec<Curve>, CliError> {
-    let heed = || interrupt.heed();
+    bar: &ProgressBar,
+) -> Vec<Curve> {
     let mut curves: Vec<Curve> = vec![];
-    let bar: ProgressBar = progress::bar(
-        methods.len() as u64,
-        "{bar:40} {pos} of {len} methods, {msg}",
-    );
     for &contender in methods {
         if curves.iter().any(|curve| curve.contender == contender) {
             continue;
         }
         bar.set_message(contender.name());
-        let mut points = vec![];
-        for point in Sweep::new(contender, problem, reference, Timing::BEST_OF_10) {
-            points.push(point);
-            heed()?;
-        }
+        let points = Sweep::new(contender, problem, reference, Timing::BEST_OF_10).collect();
         curves.push(Curve { contender, points });
         bar.inc(1);
     }
     bar.set_message("timing once more");
     for curve in &mut curves {
-        curve.time_again(problem, Timing::BEST_OF_10, heed)?;
+        curve.time_again(problem, Timing::BEST_OF_10);
     }
-    Ok(curves)
+    curves
 }

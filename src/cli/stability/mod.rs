@@ -6,6 +6,7 @@ mod report;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use figure::Rendered;
 use sim::number::decimal;
 use study::contender::Contender;
 use study::stability::{Grid, Map, Pace, Parameter, csv, picture};
@@ -34,11 +35,11 @@ pub struct Args {
     /// What of the scene is varied
     #[arg(long, value_name = "NAME", default_value = "mass-ratio", value_parser = contenders::parameter())]
     parameter: Parameter,
-    /// Its values, separated by commas: multiples of the scene's own, or N m [default: five of them]
+    /// Its values, separated by commas: multiples of the scene's own, or N m, where 0 adds none [default: five of them]
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', value_parser = contenders::multiple, allow_hyphen_values = true)]
     values: Vec<f64>,
-    /// The sizes of the steps, in seconds, separated by commas
-    #[arg(long, value_name = "SECONDS", default_value = STEPS, value_delimiter = ',', value_parser = args::seconds, allow_hyphen_values = true)]
+    /// The sizes of the steps, in seconds, separated by commas; none longer than --until [default: five to a decade, from 0.004 to 1]
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = args::seconds, allow_hyphen_values = true)]
     steps: Vec<f64>,
     /// The methods to map, separated by commas; none that chooses its steps
     #[arg(long, value_name = "NAMES", default_value = METHODS, value_delimiter = ',', value_parser = contenders::stepper())]
@@ -58,7 +59,9 @@ pub struct Args {
 }
 
 /// Five to a decade.
-const STEPS: &str = "0.004,0.0063,0.01,0.016,0.025,0.04,0.063,0.1,0.16,0.25,0.4,0.63,1";
+const STEPS: [f64; 13] = [
+    0.004, 0.0063, 0.01, 0.016, 0.025, 0.04, 0.063, 0.1, 0.16, 0.25, 0.4, 0.63, 1.0,
+];
 /// Those whose shortest steps have time in the default budget.
 const METHODS: &str =
     "lgvi,composition-2,gauss-2,gauss-4,gauss-6,gauss-8,rk4,rkmk4,rkmk4-plain,cf4";
@@ -70,7 +73,7 @@ Examples:
   lgvi stability --values 1 --methods lgvi,rk4 --steps 0.05,0.1,0.15,0.2
   lgvi stability --json | jq '.methods[] | {name, limits}'
 
-A run is judged by the first of these that holds:
+A run takes as many whole steps as --until has room for, and is judged by the first of these that holds:
   non-finite      a number was not finite; ends the run
   refused         a step was refused with an error; ends the run
   energy-band     the energy was off by 10 % of the largest kinetic energy; ends the run
@@ -96,29 +99,31 @@ Exit codes:
   0    done, even if runs failed or had no time
   1    a write failed; each file is whole, or as it was
   2    an argument or the scene is wrong
-  130  interrupted (143: terminated); as 1, the second time at once";
+  130  interrupted (143: terminated, 129: hung up); as 1, the second time at once";
 
 /// Runs the cells, writes the files and prints the table.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let begin = Instant::now();
     let loaded = load(args.scene.as_deref())?;
-    loaded.overlaps.iter().for_each(print::warning);
+    loaded.warn_of_overlaps();
+    let grid = args.grid()?;
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
-    let files = Files::create(&args.out, args.scene.as_deref())?;
-    let map = run(args, &loaded, &interrupt)?;
+    let files = Files::begin(&args.out, args.scene.as_deref())?;
     let title = title(&loaded, args);
-    let written = files.finish(&picture(&map, &title).render()?, &csv(&map))?;
+    let Mapped { map, drawn } = mapped(args, grid, &loaded, &title, &interrupt)?;
+    let files = files.complete(&drawn, &csv(&map))?;
     let report = Report {
         loaded: &loaded,
         map: &map,
         title,
         seconds: begin.elapsed().as_secs_f64(),
-        files: &written,
+        files: &files.paths(),
     };
     print::stdout(&match args.json {
         true => print::json(&json::Object::new(&report))?,
         false => report.text(),
-    })
+    })?;
+    files.place()
 }
 
 fn title(loaded: &Loaded, args: &Args) -> String {
@@ -126,21 +131,69 @@ fn title(loaded: &Loaded, args: &Args) -> String {
     format!("{}: {} s", one_line(title), decimal(args.until))
 }
 
-fn run(args: &Args, loaded: &Loaded, interrupt: &Interrupt) -> Result<Map, CliError> {
-    let values = match args.values.as_slice() {
-        [] => args.parameter.default_values(),
-        given => given,
-    };
-    let (methods, steps) = (&args.methods, &args.steps);
-    let grid = Grid::new(args.parameter, values, methods, steps, args.until);
-    let bar = progress::bar(grid.len() as u64, "{bar:40} {pos} of {len} runs, {elapsed}");
-    let pace = Pace {
-        // A time beyond what can be counted is no bound.
-        budget: Duration::try_from_secs_f64(args.budget).unwrap_or(Duration::MAX),
-        stop: &|| interrupt.signal().is_some(),
-        done: &|| bar.inc(1),
-    };
-    let map = Map::new(&loaded.scene, grid, &pace)?;
-    interrupt.heed()?;
-    Ok(map)
+impl Args {
+    fn grid(&self) -> Result<Grid, CliError> {
+        let values = match self.values.as_slice() {
+            [] => self.parameter.default_values(),
+            given => given,
+        };
+        let steps = self.steps()?;
+        Ok(Grid::new(
+            self.parameter,
+            values,
+            &self.methods,
+            &steps,
+            self.until,
+        ))
+    }
+
+    /// Those asked for, or those of the usual ones that are not beyond the end.
+    fn steps(&self) -> Result<Vec<f64>, CliError> {
+        let until = self.until;
+        let fits = |step: &f64| *step <= until;
+        let usual = || STEPS.into_iter().filter(fits).collect();
+        let steps: Vec<f64> = match self.steps.is_empty() {
+            true => usual(),
+            false => self.steps.clone(),
+        };
+        let beyond = match steps.is_empty() {
+            true => Some(STEPS[0]),
+            false => steps.iter().copied().find(|step| !fits(step)),
+        };
+        beyond.map_or(Ok(steps), |step| {
+            Err(CliError::StepBeyondEnd { step, until })
+        })
+    }
+}
+
+/// What was run, and its picture.
+struct Mapped {
+    map: Map,
+    drawn: Rendered,
+}
+
+fn mapped(
+    args: &Args,
+    grid: Grid,
+    loaded: &Loaded,
+    title: &str,
+    interrupt: &Interrupt,
+) -> Result<Mapped, CliError> {
+    let template = "{bar:40} {pos} of {len} runs, {elapsed}";
+    let bar = progress::bar(grid.len() as u64, template);
+    let (shown, scene, title) = (bar.clone(), loaded.scene.clone(), title.to_owned());
+    // A time beyond what can be counted is no bound.
+    let budget = Duration::try_from_secs_f64(args.budget).unwrap_or(Duration::MAX);
+    let mapped = interrupt.heeding(move || {
+        let pace = Pace {
+            budget,
+            stop: &|| false,
+            done: &|| shown.inc(1),
+        };
+        let map = Map::new(&scene, grid, &pace)?;
+        let drawn = picture(&map, &title).render()?;
+        Ok(Mapped { map, drawn })
+    });
+    bar.finish_and_clear();
+    mapped.unwrap_or_else(|signal| Err(CliError::Stopped { signal }))
 }

@@ -33,7 +33,8 @@ impl Report<'_> {
         for method in 0..grid.methods.len() {
             if let Some(cause) = self.cause(method, own) {
                 let (name, parameter) = (grid.methods[method], grid.parameter);
-                text += &format!("{name}, {parameter} {}: {cause}\n", grid.values[own]);
+                let value = decimal(grid.values[own]);
+                text += &format!("{name}, {parameter} {value}: {cause}\n");
             }
         }
         if self.is_cut_short() {
@@ -53,7 +54,7 @@ impl Report<'_> {
     fn table(&self) -> Vec<Vec<String>> {
         let grid = &self.map.grid;
         let head =
-            core::iter::once("method".to_owned()).chain(grid.values.iter().map(f64::to_string));
+            core::iter::once("method".to_owned()).chain(grid.values.iter().copied().map(decimal));
         let row = |method: usize| {
             let limit = move |value| {
                 let Limit { step, wall, .. } = self.map.limit(method, value);
@@ -78,10 +79,11 @@ impl Report<'_> {
         limits.any(|(method, value)| self.map.limit(method, value).untried > 0)
     }
 
-    /// The index of the value that is nearest to the scene's own, of a stiffness to 1 N m.
+    /// The index of the value that is nearest to the scene's own, of a stiffness to 1 N m, unless there is the scene itself, with 0.
     fn own(&self) -> usize {
         let values = self.map.grid.values.iter().enumerate();
-        let own = values.min_by(|(_, a), (_, b)| a.ln().abs().total_cmp(&b.ln().abs()));
+        let distance = |value: &f64| if *value == 0.0 { 0.0 } else { value.ln().abs() };
+        let own = values.min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
         own.map_or(0, |(index, _)| index)
     }
 
@@ -94,7 +96,7 @@ impl Report<'_> {
             self.map.cell(method, value, next),
         );
         let what = match outcome.class {
-            Class::NotRun if !outcome.had_no_time(self.map.grid.until) => {
+            Class::NotRun if !outcome.had_no_time() => {
                 "there was no reference to compare with".to_owned()
             }
             _ => what(outcome),
@@ -128,10 +130,10 @@ impl Report<'_> {
 
 fn what(outcome: &Outcome) -> String {
     let percent = |x: Option<f64>| format!("{:.1} %", 100.0 * x.unwrap_or(f64::INFINITY));
-    let t = outcome.t;
+    let t = three_digits(outcome.t);
     match outcome.class {
         Class::EnergyBand => format!(
-            "the energy is off by {} at t = {t:.1} s",
+            "the energy is off by {} at t = {t} s",
             percent(outcome.energy)
         ),
         Class::EnergyDrift => format!("the energy drifts by {}", percent(outcome.drift)),
@@ -143,8 +145,8 @@ fn what(outcome: &Outcome) -> String {
             "attitudes are off the group by {:.0e}",
             outcome.orthogonality
         ),
-        Class::Refused => format!("a step is refused at t = {t:.1} s"),
-        Class::NonFinite => format!("a number is not finite after t = {t:.1} s"),
+        Class::Refused => format!("a step is refused at t = {t} s"),
+        Class::NonFinite => format!("a number is not finite after t = {t} s"),
         Class::SilentlyWrong => {
             let angle = outcome.attitude.unwrap_or(f64::INFINITY);
             format!("all is kept, but attitudes are off by {angle:.1} rad")

@@ -46,7 +46,7 @@ pub(super) fn check<'a>(
 fn name<'a>(table: &Table<'a>, earlier: &Names) -> Result<Name<'a>, SceneError> {
     let value = table.require("name")?;
     let text = value.text()?;
-    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_/.".contains(c);
     if text.is_empty() || !text.chars().all(allowed) {
         return Err(value.wrong(&format!("is {text:?}")));
     }

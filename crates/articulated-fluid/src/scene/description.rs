@@ -33,6 +33,16 @@ pub struct Scene {
     pub notes: Vec<Note>,
 }
 
+impl Scene {
+    /// What each body counts in the centre of mass, kg: its own mass. Where that of a body is not known, as only
+    /// [`total_mass`](SceneBody::total_mass) is given, all count by their total masses, in the mean of the three axes.
+    pub fn centre_masses(&self) -> Vec<f64> {
+        let own: Option<Vec<f64>> = self.bodies.iter().map(SceneBody::mass).collect();
+        let total = |body: &SceneBody| [0, 1, 2].map(|i| body.total_mass[i][i] / 3.0).iter().sum();
+        own.unwrap_or_else(|| self.bodies.iter().map(total).collect())
+    }
+}
+
 /// The initial velocity of the head's mass centre in the reference frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StartVelocity {
@@ -47,7 +57,7 @@ pub enum StartVelocity {
 /// A rigid body of a [`Scene`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneBody {
-    /// Name: unique in the scene, made of ASCII letters, digits, `-` and `_`.
+    /// Name: unique in the scene, made of ASCII letters, digits, `-`, `_`, `/` and `.`, as names of ROS have them.
     pub name: String,
     /// What the body is, as far as the file tells.
     pub form: Form,
@@ -83,11 +93,12 @@ impl SceneBody {
         }
     }
 
-    /// A body of these totals, as [`total_mass`](Self::total_mass), [`total_inertia`](Self::total_inertia) and
+    /// A body of this own mass, kg, if it is known, and of these totals, as [`total_mass`](Self::total_mass), [`total_inertia`](Self::total_inertia) and
     /// [`net_mass`](Self::net_mass): at rest, and aligned with the reference frame.
     pub fn given(
         name: &str,
         shape: Option<Ellipsoid>,
+        mass: Option<f64>,
         [total_mass, total_inertia]: [[[f64; 3]; 3]; 2],
         net_mass: f64,
     ) -> Self {
@@ -95,6 +106,7 @@ impl SceneBody {
             name: name.to_owned(),
             form: Form::Given {
                 shape: shape.map(|shape| shape.semi_axes()),
+                mass,
             },
             total_mass,
             total_inertia,
@@ -108,7 +120,15 @@ impl SceneBody {
     pub fn semi_axes(&self) -> Option<[f64; 3]> {
         match self.form {
             Form::Ellipsoid { semi_axes, .. } => Some(semi_axes),
-            Form::Given { shape } => shape,
+            Form::Given { shape, .. } => shape,
+        }
+    }
+
+    /// The body's own mass, kg; `None` where only the total one is known, with the added mass in it.
+    pub fn mass(&self) -> Option<f64> {
+        match self.form {
+            Form::Ellipsoid { mass, .. } => Some(mass),
+            Form::Given { mass, .. } => mass,
         }
     }
 }
@@ -135,6 +155,8 @@ pub enum Form {
     Given {
         /// The semi-axes, m, of the ellipsoid that it is given as its shape, if any.
         shape: Option<[f64; 3]>,
+        /// The body's own mass, kg, if it is known.
+        mass: Option<f64>,
     },
 }
 

@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+/// The longest text of a scene, in bytes: that of a hundred thousand bodies. To read a text takes up to fifty times its memory.
+pub const MOST_BYTES: usize = 16_000_000;
+
 /// Why a file is no scene; displayed like a compiler's message.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -13,6 +16,14 @@ pub enum SceneError {
         file: String,
         /// What the operating system says.
         source: std::io::Error,
+    },
+    /// The text is longer than a scene is.
+    #[error(
+        "{file}: larger than {} MB, the most that a scene may have; expected a scene as text", MOST_BYTES / 1_000_000
+    )]
+    TooLarge {
+        /// The file's name.
+        file: String,
     },
     /// The text is no TOML, or no valid scene.
     #[error("{file}:{line}:{column}: {key}: {message}")]

@@ -106,8 +106,9 @@ fn explicit(table: &Table, name: &str, around: &Surroundings) -> Result<SceneBod
     let total_mass = sum(Mat3::diagonal([mass; 3]).0, added_mass);
     let total_inertia = sum(inertia, added_inertia);
     match (total_mass, total_inertia, net.is_finite()) {
-        (Some(mass), Some(inertia), true) => {
-            Ok(SceneBody::given(name, shape, [mass, inertia], net))
+        (Some(total_mass), Some(total_inertia), true) => {
+            let totals = [total_mass, total_inertia];
+            Ok(SceneBody::given(name, shape, Some(mass), totals, net))
         }
         _ => Err(out_of_range(&field)),
     }
@@ -190,7 +191,7 @@ fn from_totals(table: &Table, name: &str, around: &Surroundings) -> Result<Scene
     }
     let shape = shape(table)?;
     let totals = [mass.definite()?, inertia.definite()?];
-    Ok(SceneBody::given(name, shape, totals, 0.0))
+    Ok(SceneBody::given(name, shape, None, totals, 0.0))
 }
 
 fn shape(table: &Table) -> Result<Option<Ellipsoid>, SceneError> {

@@ -79,7 +79,7 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "body.name",
-        "a unique name of letters a-z A-Z, digits, - and _",
+        "a unique name of letters a-z A-Z, digits, - _ / and .",
         REQUIRED,
         "name of the body in joints and in results",
     ),

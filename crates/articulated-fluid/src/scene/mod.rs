@@ -35,13 +35,15 @@ mod source;
 mod start;
 mod values;
 
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 pub use description::{Form, Mobility, Scene, SceneBody, SceneJoint, SceneMount, StartVelocity};
-pub use error::SceneError;
+pub use error::{MOST_BYTES, SceneError};
 pub use keys::{KEYS, Key, reference};
 pub use note::{Correction, Note};
-pub use overlap::Overlap;
+pub use overlap::{Overlap, Overlaps};
 
 use entry::{Table, Value};
 use forms::Surroundings;
@@ -74,8 +76,13 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError::Invalid`] for the first thing wrong: TOML syntax, an unknown or missing key,
-    /// a value of the wrong type or size, not finite or out of range, joints that make no tree.
+    /// a value of the wrong type or size, not finite or out of range, joints that make no tree; [`SceneError::TooLarge`] of a text
+    /// longer than [`MOST_BYTES`].
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
+        if text.len() > MOST_BYTES {
+            let file = file.to_owned();
+            return Err(SceneError::TooLarge { file });
+        }
         let source = Source::new(text, file);
         let tree = source.parse()?;
         let scene = read(&Table::root(&source, tree.get_ref())?)?;
@@ -90,11 +97,27 @@ impl Scene {
     /// [`SceneError::Io`] if the file cannot be read as UTF-8 text, else as [`Scene::parse`].
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let file = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&text, &file),
+        match read_bounded(path) {
+            Ok(bytes) => match std::str::from_utf8(&bytes) {
+                Ok(text) => Self::parse(text, &file),
+                // The end may be one of a text that goes on.
+                Err(_) if bytes.len() > MOST_BYTES => Err(SceneError::TooLarge { file }),
+                Err(error) => {
+                    let source = io::Error::new(io::ErrorKind::InvalidData, error);
+                    Err(SceneError::Io { file, source })
+                }
+            },
             Err(source) => Err(SceneError::Io { file, source }),
         }
     }
+}
+
+/// The bytes of a file, or as many as tell that it is too large: it may be a device without end.
+fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = vec![];
+    let file = File::open(path)?;
+    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// All but the notes.

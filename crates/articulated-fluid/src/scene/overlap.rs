@@ -1,6 +1,8 @@
 //! Ellipsoids that overlap at the start, most often by a wrong sign in a joint.
 
+use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::ControlFlow;
 
 use lie::{Mat3, SO3, Vec3};
 
@@ -14,6 +16,35 @@ const HALVINGS: usize = 50;
 
 /// Sweeps of Jacobi's rotations: they converge quadratically.
 const SWEEPS: usize = 8;
+
+/// So many pairs of close bodies are looked at in any scene, and so many for each body of a large one: what closely packed bodies
+/// have. Beyond, as where all bodies are in one place, the search would take the square of their number.
+const PAIRS: usize = 1 << 19;
+const PAIRS_OF_A_BODY: usize = 16;
+
+/// The overlaps of a [`Scene`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlaps {
+    /// The first of those found, ascending by the bodies.
+    pub first: Vec<Overlap>,
+    /// How many more were found.
+    pub more: usize,
+    /// Whether all pairs were looked at: else there may be still more.
+    pub is_complete: bool,
+}
+
+impl Overlaps {
+    /// In words, what is beyond the [first](Self::first) ones; `None` where nothing is.
+    pub fn rest(&self) -> Option<String> {
+        match (self.more, self.is_complete) {
+            (0, true) => None,
+            (more, true) => Some(format!("{more} more pairs of bodies overlap")),
+            (more, false) => Some(format!(
+                "{more} more pairs of bodies overlap, or still more"
+            )),
+        }
+    }
+}
 
 /// Two bodies of a [`Scene`] whose ellipsoids overlap in the initial configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,8 +83,10 @@ struct Placed {
 }
 
 impl Scene {
-    /// The pairs of bodies that overlap in the initial configuration, ascending; only of bodies with
-    /// [semi-axes](SceneBody::semi_axes).
+    /// The bodies that overlap in the initial configuration, of those with [semi-axes](SceneBody::semi_axes): the `most` first pairs,
+    /// and how many more.
+    ///
+    /// Time and memory are in proportion to the bodies, however many pairs overlap.
     ///
     /// ```
     /// use articulated_fluid::Scene;
@@ -63,32 +96,47 @@ impl Scene {
     ///     body = [{ name = 'a', semi_axes = [3, 1, 1] }, { name = 'b', semi_axes = [2, 1, 1] }]
     ///     joint = [{ parent = 'a', child = 'b', at_parent = [3, 0, 0], at_child = [2, 0, 0] }]
     /// ";
-    /// let overlaps = Scene::parse(text, "boat.toml")?.overlaps();
+    /// let overlaps = Scene::parse(text, "boat.toml")?.overlaps(10);
     /// assert_eq!(
-    ///     overlaps[0].to_string(),
+    ///     overlaps.first[0].to_string(),
     ///     "bodies \"a\" and \"b\" overlap by 4.0 m along the line of their centres; \
     ///      check the signs of the joint's points"
     /// );
+    /// assert_eq!((overlaps.more, overlaps.rest()), (0, None));
     /// # Ok::<(), articulated_fluid::SceneError>(())
     /// ```
-    pub fn overlaps(&self) -> Vec<Overlap> {
+    pub fn overlaps(&self, most: usize) -> Overlaps {
         let placed = self.placed();
-        let mut overlaps: Vec<_> = candidates(&placed)
-            .into_iter()
-            .filter_map(|(a, b)| self.overlap(a, b))
-            .collect();
-        overlaps.sort_by_key(|overlap| overlap.bodies);
-        overlaps
+        let (mut first, mut count) = (BTreeMap::new(), 0);
+        let mut left = PAIRS.max(PAIRS_OF_A_BODY.saturating_mul(placed.len()));
+        let searched = for_close_pairs(&placed, |a, b| {
+            if left == 0 {
+                return ControlFlow::Break(());
+            }
+            left -= 1;
+            let (a, b) = if a.body < b.body { (a, b) } else { (b, a) };
+            if let Some(depth) = depth(a, b) {
+                count += 1;
+                first.insert([a.body, b.body], depth);
+                if first.len() > most {
+                    first.pop_last();
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        Overlaps {
+            more: count - first.len(),
+            is_complete: searched.is_continue(),
+            first: first.into_iter().map(|pair| self.overlap(pair)).collect(),
+        }
     }
 
-    fn overlap(&self, a: &Placed, b: &Placed) -> Option<Overlap> {
-        let (a, b) = if a.body < b.body { (a, b) } else { (b, a) };
-        let bodies = [a.body, b.body];
-        Some(Overlap {
+    fn overlap(&self, (bodies, depth): ([usize; 2], f64)) -> Overlap {
+        Overlap {
             bodies,
             names: bodies.map(|body| self.bodies[body].name.clone()),
-            depth: depth(a, b)?,
-        })
+            depth,
+        }
     }
 
     /// The ellipsoids, about the first body's mass centre: where that is does not matter.
@@ -132,8 +180,12 @@ impl Placed {
     }
 }
 
-/// The pairs of ellipsoids whose spheres overlap: sorted and swept along the axis on which all extend most.
-fn candidates(placed: &[Placed]) -> Vec<(&Placed, &Placed)> {
+/// Calls `look` with the pairs of ellipsoids whose spheres overlap, until it breaks: sorted and swept along the axis on which all
+/// extend most.
+fn for_close_pairs(
+    placed: &[Placed],
+    mut look: impl FnMut(&Placed, &Placed) -> ControlFlow<()>,
+) -> ControlFlow<()> {
     let low = |p: &Placed, axis: usize| p.centre[axis] - p.radius;
     let high = |p: &Placed, axis: usize| p.centre[axis] + p.radius;
     let extent = |axis: &usize| {
@@ -152,14 +204,13 @@ fn candidates(placed: &[Placed]) -> Vec<(&Placed, &Placed)> {
         .unwrap_or(0);
     let mut sorted: Vec<&Placed> = placed.iter().collect();
     sorted.sort_by(|a, b| low(a, axis).total_cmp(&low(b, axis)));
-    let mut pairs = Vec::new();
     for (index, a) in sorted.iter().enumerate() {
         let rest = sorted[index + 1..].iter();
         let beside = rest.take_while(|b| low(b, axis) < high(a, axis));
-        let close = beside.filter(|b| (a.centre - b.centre).norm() < a.radius + b.radius);
-        pairs.extend(close.map(|b| (*a, *b)));
+        let mut close = beside.filter(|b| (a.centre - b.centre).norm() < a.radius + b.radius);
+        close.try_for_each(|b| look(a, b))?;
     }
-    pairs
+    ControlFlow::Continue(())
 }
 
 /// How deep two ellipsoids overlap, m; `None` where they do not.
@@ -171,7 +222,9 @@ fn depth(a: &Placed, b: &Placed) -> Option<f64> {
         return Some(a.smallest() + b.smallest());
     }
     let (semi_axes, direction) = seen_from(a, b, direction);
-    let touching = 1.0 / contact(semi_axes, direction).sqrt();
+    // A bound of the contact function from below is one of the touching distance from above.
+    let apart = (distance * distance).recip();
+    let touching = 1.0 / contact(semi_axes, direction, apart).sqrt();
     let overlap = touching.is_finite() && distance < touching * (1.0 - TOUCHING);
     overlap.then_some(touching - distance)
 }
@@ -218,7 +271,9 @@ fn turn(x: Vec3, y: Vec3) -> Option<(f64, f64)> {
 /// With $A = 1$, $B = \mathrm{diag}(\sigma_i^2)$ and $s = 1 / \lambda - 1$ it is
 /// $\max_s \sum_i u_i^2 / ((1 + s) (1 + \sigma_i^2 / s))$, each term with its maximum at $\sigma_i$. The maximum of the sum is
 /// between them, where the derivative vanishes: there is one, as the function of $\lambda$ is concave.
-fn contact(semi_axes: [f64; 3], direction: [f64; 3]) -> f64 {
+///
+/// It ends early where the function exceeds `enough`.
+fn contact(semi_axes: [f64; 3], direction: [f64; 3], enough: f64) -> f64 {
     let mut low = semi_axes.into_iter().fold(f64::INFINITY, f64::min);
     let mut high = semi_axes.into_iter().fold(0.0, f64::max);
     let mut largest = 0.0_f64;
@@ -233,6 +288,9 @@ fn contact(semi_axes: [f64; 3], direction: [f64; 3]) -> f64 {
             slope += term * (ratio * ratio - 1.0) / (1.0 + sigma * ratio);
         }
         largest = largest.max(sum);
+        if largest > enough {
+            break;
+        }
         if slope > 0.0 {
             low = s;
         } else {

@@ -1,6 +1,6 @@
 //! The text of a scene file: its syntax, and messages as `FILE:LINE:COLUMN: KEY: what is wrong`.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::path::Path;
 
 use toml::Spanned;
@@ -17,6 +17,8 @@ pub(super) struct Source<'a> {
     file: &'a str,
     /// What was corrected so far.
     pub notes: RefCell<Vec<Note>>,
+    /// The bytes at which lines end: each body may ask for its line.
+    newlines: OnceCell<Vec<usize>>,
 }
 
 impl<'a> Source<'a> {
@@ -25,6 +27,7 @@ impl<'a> Source<'a> {
             text,
             file,
             notes: RefCell::default(),
+            newlines: OnceCell::new(),
         }
     }
 
@@ -50,7 +53,7 @@ impl<'a> Source<'a> {
 
     /// The error about the key that starts at `offset`.
     pub fn error(&self, key: &str, offset: usize, message: String) -> SceneError {
-        let (line, column) = position(self.text, offset);
+        let (line, column) = (self.line(offset), self.column(offset));
         SceneError::Invalid {
             file: self.file.to_owned(),
             line,
@@ -62,7 +65,23 @@ impl<'a> Source<'a> {
 
     /// The line of the byte at `offset`, from 1.
     pub fn line(&self, offset: usize) -> usize {
-        position(self.text, offset).0
+        self.newlines_before(offset).len() + 1
+    }
+
+    /// The column of the byte at `offset`, from 1, in characters.
+    fn column(&self, offset: usize) -> usize {
+        let start = self.newlines_before(offset).last().map_or(0, |end| end + 1);
+        let line = self.text.get(start..).unwrap_or("");
+        let before = line.char_indices();
+        let before = before.take_while(|(at, c)| start + at + c.len_utf8() <= offset);
+        // A byte order mark is invisible in an editor.
+        before.skip_while(|(_, c)| *c == '\u{feff}').count() + 1
+    }
+
+    fn newlines_before(&self, offset: usize) -> &[usize] {
+        let all = || self.text.match_indices('\n').map(|(at, _)| at).collect();
+        let all: &Vec<usize> = self.newlines.get_or_init(all);
+        &all[..all.partition_point(|at| *at < offset)]
     }
 
     /// What was noted, in the order of the lines.
@@ -94,17 +113,4 @@ pub(super) fn quote(text: &str) -> String {
         short.push_str("...");
     }
     short
-}
-
-/// Line and column, from 1, of the byte at `offset`; the column counts characters.
-fn position(text: &str, offset: usize) -> (usize, usize) {
-    let before = (0..=offset.min(text.len()))
-        .rev()
-        .find_map(|end| text.get(..end));
-    let before = before.unwrap_or("");
-    let line = before.matches('\n').count() + 1;
-    let last = before.rsplit('\n').next().unwrap_or("");
-    // A byte order mark is invisible in an editor.
-    let column = last.trim_start_matches('\u{feff}').chars().count() + 1;
-    (line, column)
 }

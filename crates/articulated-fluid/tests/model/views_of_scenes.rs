@@ -23,7 +23,10 @@ fn scene(sample: &Sample, velocity: StartVelocity) -> Scene {
         .enumerate()
         .map(|(i, (((body, r), rate), net_mass))| SceneBody {
             name: format!("body-{i}"),
-            form: Form::Given { shape: None },
+            form: Form::Given {
+                shape: None,
+                mass: None,
+            },
             total_mass: body.mass.0,
             total_inertia: body.inertia.0,
             net_mass,

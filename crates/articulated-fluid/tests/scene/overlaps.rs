@@ -1,6 +1,7 @@
 //! The depth of overlaps against spheres, where it is exact, and against planes that separate the bodies.
 
-use articulated_fluid::Scene;
+use articulated_fluid::scene::{Overlaps, SceneBody, SceneJoint};
+use articulated_fluid::{Ellipsoid, Scene};
 use lie::{SO3, Vec3};
 use proptest::prelude::*;
 
@@ -22,7 +23,7 @@ fn pair(a: Shape, b: Shape, centre: Vec3) -> Scene {
 }
 
 fn depth(scene: &Scene) -> Option<f64> {
-    scene.overlaps().first().map(|overlap| overlap.depth)
+    scene.overlaps(1).first.first().map(|overlap| overlap.depth)
 }
 
 const ALIGNED: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
@@ -146,7 +147,7 @@ fn an_overlap_names_its_bodies() {
         ([1.0; 3], ALIGNED),
         Vec3([0.0, 1.66, 0.0]),
     );
-    let [overlap] = &scene.overlaps()[..] else {
+    let [overlap] = &scene.overlaps(usize::MAX).first[..] else {
         panic!("one overlap");
     };
     assert_eq!(overlap.bodies, [0, 1]);
@@ -178,7 +179,14 @@ fn thousands_of_bodies_are_swept() {
     }
     let scene = parse(&text);
     let start = std::time::Instant::now();
-    let overlaps = scene.overlaps();
+    let Overlaps {
+        first: overlaps,
+        more: 0,
+        is_complete: true,
+    } = scene.overlaps(usize::MAX)
+    else {
+        panic!("all of them");
+    };
     println!("{} bodies in {:?}", n * n * n, start.elapsed());
     assert_eq!(overlaps.len(), 3 * n * n * (n - 1));
     assert!(
@@ -187,6 +195,53 @@ fn thousands_of_bodies_are_swept() {
             .all(|overlap| (overlap.depth - 0.2).abs() < 1e-12)
     );
     assert!(overlaps.is_sorted_by_key(|overlap| overlap.bodies));
+}
+
+/// Spheres in one place, or ellipsoids on one joint: each pair is close.
+fn star(count: usize, axes: [f64; 3]) -> Scene {
+    let shape = Ellipsoid::new(axes).unwrap();
+    let body = |i: i32| SceneBody {
+        attitude: some_attitude(i),
+        ..SceneBody::ellipsoid(&format!("b{i}"), &shape, 1.0, 1.0)
+    };
+    let joint = |child| SceneJoint {
+        parent: 0,
+        child,
+        at_parent: [0.0; 3],
+        at_child: [-axes[0], 0.0, 0.0],
+        stiffness: 0.0,
+    };
+    Scene {
+        bodies: (0..count as i32).map(body).collect(),
+        joints: (1..count).map(joint).collect(),
+        ..parse("fluid.density = 1\nbody = [{ name = 'a', semi_axes = [1, 1, 1] }]")
+    }
+}
+
+/// The first of them are the first of all, and none is lost in the count.
+#[test]
+fn a_few_of_many_overlaps_are_told() {
+    let scene = star(200, [3.0, 1.0, 2.0]);
+    let all = scene.overlaps(usize::MAX);
+    assert!(all.is_complete && all.first.len() > 1000);
+    for most in [0, 1, 10, all.first.len()] {
+        let few = scene.overlaps(most);
+        assert_eq!(few.first, all.first[..most]);
+        assert_eq!(few.first.len() + few.more, all.first.len());
+    }
+}
+
+/// A search of all pairs would take minutes, and gigabytes to keep them.
+#[test]
+fn the_search_ends_where_all_bodies_are_in_one_place() {
+    for axes in [[1.0, 1.0, 1.0], [3.0, 1.0, 2.0], [1.0, 1e-3, 1e-3]] {
+        let begin = std::time::Instant::now();
+        let overlaps = star(20_000, axes).overlaps(10);
+        println!("{axes:?} in {:?}: {:?}", begin.elapsed(), overlaps.rest());
+        assert!(overlaps.first.len() <= 10 && !overlaps.is_complete);
+        // So many pairs are looked at.
+        assert!(overlaps.more < 1 << 20, "{}", overlaps.more);
+    }
 }
 
 /// The support function: how far the ellipsoid extends in the direction `n`.

@@ -183,19 +183,19 @@ fn names_that_are_no_names_or_no_longer_free_are_refused() {
             "name = \"tail-1\"",
             "name = \"\"",
             "f.toml:14:1: body.name: is \"\"; \
-             expected a unique name of letters a-z A-Z, digits, - and _",
+             expected a unique name of letters a-z A-Z, digits, - _ / and .",
         ),
         (
             "name = \"tail-1\"",
             "name = \"tail,1\\n\"",
             "f.toml:14:1: body.name: is \"tail,1\\n\"; \
-             expected a unique name of letters a-z A-Z, digits, - and _",
+             expected a unique name of letters a-z A-Z, digits, - _ / and .",
         ),
         (
             "name = \"tail-1\"",
             "name = \"head\"",
             "f.toml:14:1: body.name: \"head\" is the body in line 8; \
-             expected a unique name of letters a-z A-Z, digits, - and _",
+             expected a unique name of letters a-z A-Z, digits, - _ / and .",
         ),
     ]);
 }
@@ -217,7 +217,7 @@ fn missing_keys_are_reported_at_their_table() {
             "name = \"tail-1\"\n",
             "",
             "f.toml:13:1: body.name: missing; \
-             expected a unique name of letters a-z A-Z, digits, - and _",
+             expected a unique name of letters a-z A-Z, digits, - _ / and .",
         ),
         (
             "total_mass = [1, 2, 3]\n",

@@ -1,5 +1,6 @@
 //! Runs of scenes: the methods by name, the laws of the loop, and the table. One program, for what they share is compiled once.
 
+mod file;
 mod methods;
 mod simulation;
 mod table;

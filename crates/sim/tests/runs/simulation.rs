@@ -218,7 +218,13 @@ fn a_start_beyond_all_numbers_is_refused() {
     let mut scene = paper();
     scene.bodies[0].angular_velocity[0] = 1e200;
     let error = Simulation::new(&scene, &Plan::default()).err();
-    assert_eq!(error, Some(SimError::NotFinite { t: 0.0 }));
+    assert_eq!(
+        error,
+        Some(SimError::NotFinite {
+            t: 0.0,
+            quantity: "energy"
+        })
+    );
 }
 
 #[test]

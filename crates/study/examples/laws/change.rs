@@ -35,8 +35,9 @@ impl Units {
                     semi_axes: scaled(semi_axes, length),
                     mass: own * mass,
                 },
-                Form::Given { shape } => Form::Given {
+                Form::Given { shape, mass: own } => Form::Given {
                     shape: shape.map(|axes| scaled(axes, length)),
+                    mass: own.map(|own| own * mass),
                 },
             };
             body.total_mass = body.total_mass.map(|row| scaled(row, mass));

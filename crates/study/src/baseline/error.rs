@@ -15,21 +15,23 @@ pub enum BaselineError {
         absolute: f64,
     },
     /// The end time is not finite, or not after the start.
-    #[error("the end time {until} is not finite, or not after the start: give a later one")]
+    #[error("the end time {until:?} is not finite, or not after the start: give a later one")]
     Until {
         /// The end time given.
         until: f64,
     },
     /// The sampling interval is not positive and finite.
     #[error(
-        "the sampling interval {every} is not positive and finite: give the time between samples"
+        "the sampling interval {every:?} is not positive and finite: give the time between samples"
     )]
     Every {
         /// The sampling interval given.
         every: f64,
     },
     /// The time asked for lies before the last step or after the end.
-    #[error("there is no state at t = {t}: ask for times that grow, here from {from} to {until}")]
+    #[error(
+        "there is no state at t = {t:?}: ask for times that grow, here from {from:?} to {until:?}"
+    )]
     Time {
         /// The time asked for.
         t: f64,
@@ -45,7 +47,7 @@ pub enum BaselineError {
     #[error("the start does not fit the model: give a configuration of its size")]
     Misfit,
     /// A component of the initial state is not finite.
-    #[error("component {index} of the initial state is {value}: give finite numbers")]
+    #[error("component {index} of the initial state is {value:?}: give finite numbers")]
     InitialState {
         /// Position of the component.
         index: usize,
@@ -62,7 +64,7 @@ pub enum BaselineError {
     },
     /// The right-hand side is not finite, however short the step.
     #[error(
-        "the right-hand side is not finite at t = {t}: check its formula there, or end the run earlier"
+        "the right-hand side is not finite at t = {t:?}: check its formula there, or end the run earlier"
     )]
     NonFiniteRhs {
         /// Time of the stage.
@@ -70,7 +72,7 @@ pub enum BaselineError {
     },
     /// The solution overflowed.
     #[error(
-        "the state is not finite at t = {t}: the solution grows without bound, end the run earlier"
+        "the state is not finite at t = {t:?}: the solution grows without bound, end the run earlier"
     )]
     NonFiniteState {
         /// Time of the stage that overflowed.
@@ -78,7 +80,7 @@ pub enum BaselineError {
     },
     /// No step is short enough for the tolerance.
     #[error(
-        "no step is short enough at t = {t}: the solution may have a singularity there, or the tolerance is too tight, loosen it"
+        "no step is short enough at t = {t:?}: the solution may have a singularity there, or the tolerance is too tight, loosen it"
     )]
     StepUnderflow {
         /// Time reached.
@@ -86,7 +88,7 @@ pub enum BaselineError {
     },
     /// The budget of steps is spent.
     #[error(
-        "{steps} steps have only reached t = {t}: the problem may be stiff, loosen the tolerance or shorten the run"
+        "{steps} steps have only reached t = {t:?}: the problem may be stiff, loosen the tolerance or shorten the run"
     )]
     TooManySteps {
         /// Time reached.

@@ -37,13 +37,13 @@ pub enum ReferenceError {
     #[error("the start does not fit the system: give a configuration and a momentum of its size")]
     Misfit,
     /// A time is not finite.
-    #[error("the time {t} is not finite")]
+    #[error("the time {t:?} is not finite")]
     Time {
         /// The time given.
         t: f64,
     },
     /// The integration from time `t` on failed; the times in its source count from `t`.
-    #[error("the integration failed after t = {t}: {source}")]
+    #[error("the integration failed after t = {t:?}: {source}")]
     Integration {
         /// Time reached.
         t: f64,

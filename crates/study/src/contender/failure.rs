@@ -1,6 +1,7 @@
 //! Why a run did not reach its end.
 
 use dvi::{PilotError, StepError};
+use sim::number::decimal;
 use thiserror::Error;
 
 use crate::baseline::BaselineError;
@@ -27,7 +28,7 @@ pub enum Failure {
         given: String,
     },
     /// What is measured of a state is not a number.
-    #[error("at t = {t} s the energy, a momentum or an attitude is not a finite number")]
+    #[error("at t = {} s the energy, a momentum or an attitude is not a finite number", decimal(*t))]
     NotFinite {
         /// Time of the state, s.
         t: f64,

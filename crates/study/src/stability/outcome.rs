@@ -135,6 +135,9 @@ pub struct Outcome {
     /// The state from which a step was refused.
     #[serde(skip)]
     pub refused_at: Option<State<Configuration>>,
+    /// Whether the time was over before the run was.
+    #[serde(skip)]
+    is_cut_off: bool,
 }
 
 fn told<S: Serializer>(failure: &Option<Failure>, serializer: S) -> Result<S::Ok, S::Error> {
@@ -145,9 +148,9 @@ fn told<S: Serializer>(failure: &Option<Failure>, serializer: S) -> Result<S::Ok
 }
 
 impl Outcome {
-    /// Whether its time was over before its turn or its end, `until`, s.
-    pub fn had_no_time(&self, until: f64) -> bool {
-        self.class == Class::NotRun && self.t < until
+    /// Whether its time was over before its turn or its end.
+    pub fn had_no_time(&self) -> bool {
+        self.class == Class::NotRun && self.is_cut_off
     }
 
     /// A run that was not begun.
@@ -162,6 +165,7 @@ impl Outcome {
         attitude: None,
         failure: None,
         refused_at: None,
+        is_cut_off: true,
     };
 
     /// A start whose energy or momentum is not finite.
@@ -169,6 +173,7 @@ impl Outcome {
         Self {
             class: Class::NonFinite,
             failure: Some(Failure::NotFinite { t }),
+            is_cut_off: false,
             ..Self::NOT_RUN
         }
     }
@@ -268,6 +273,7 @@ impl Judge {
     }
 
     pub(super) fn judge(&self, end: End) -> Outcome {
+        let is_cut_off = matches!(end, End::OutOfTime);
         let (class, failure, refused_at) = match end {
             End::Reached | End::OffBand => (self.class_at_end(), None, None),
             End::Stopped(error, _) if error.cause == Cause::NotFinite => {
@@ -288,6 +294,7 @@ impl Judge {
             attitude: self.attitude,
             failure,
             refused_at,
+            is_cut_off,
         }
     }
 }

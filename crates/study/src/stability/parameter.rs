@@ -8,6 +8,7 @@ use core::str::FromStr;
 use articulated_fluid::scene::{Form, SceneBody, StartVelocity};
 use articulated_fluid::{Ellipsoid, EllipsoidError, ModelError, Scene};
 use serde::Serialize;
+use sim::number::decimal;
 use thiserror::Error;
 
 use crate::contender::Problem;
@@ -41,9 +42,13 @@ pub struct UnknownParameter {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ParameterError {
-    /// The value is no positive number.
-    #[error("the value is {value}; expected a finite number > 0")]
+    /// The value is no positive number, nor the zero that a stiffness may be.
+    #[error(
+        "{parameter} has the value {}; expected a finite number > 0{}", decimal(*value), if parameter.may_be_zero() { ", or 0" } else { "" }
+    )]
     Value {
+        /// What was to be varied.
+        parameter: Parameter,
         /// The value.
         value: f64,
     },
@@ -65,7 +70,7 @@ pub enum ParameterError {
         parameter: Parameter,
     },
     /// The stretched axes are no ellipsoid's.
-    #[error("body {body:?} stretched {value} times: {source}")]
+    #[error("body {body:?} stretched {} times: {source}", decimal(*value))]
     Ellipsoid {
         /// Its name.
         body: String,
@@ -75,7 +80,7 @@ pub enum ParameterError {
         source: EllipsoidError,
     },
     /// What comes of it is no model.
-    #[error("at {parameter} = {value}: {source}")]
+    #[error("at {parameter} = {}: {source}", decimal(*value))]
     Model {
         /// What was varied.
         parameter: Parameter,
@@ -128,6 +133,11 @@ impl Parameter {
         }
     }
 
+    /// Whether zero is a value of it: what is added may be nothing, and nothing times as much is no scene.
+    fn may_be_zero(self) -> bool {
+        self == Self::Stiffness
+    }
+
     /// Its name on an axis.
     pub fn label(self) -> &'static str {
         match self {
@@ -143,12 +153,14 @@ impl Parameter {
     /// # Errors
     /// [`ParameterError`].
     pub fn vary(self, scene: &Scene, value: f64) -> Result<Scene, ParameterError> {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(ParameterError::Value { value });
+        let parameter = self;
+        let valid = value > 0.0 || (value == 0.0 && self.may_be_zero());
+        if !(value.is_finite() && valid) {
+            return Err(ParameterError::Value { parameter, value });
         }
         let of_tails = matches!(self, Self::MassRatio | Self::Stiffness);
         if of_tails && scene.bodies.len() < 2 {
-            return Err(ParameterError::NoTail { parameter: self });
+            return Err(ParameterError::NoTail { parameter });
         }
         let mut scene = scene.clone();
         match self {
@@ -215,6 +227,7 @@ fn weigh(scene: &mut Scene, value: f64) {
         // No longer that of its shape.
         body.form = Form::Given {
             shape: body.semi_axes(),
+            mass: body.mass().map(|mass| value * mass),
         };
     }
 }

@@ -1,6 +1,6 @@
 //! The map as a picture.
 
-use sim::number::three_digits;
+use sim::number::{decimal, three_digits};
 
 use super::outcome::{ENERGY_BAND, ENERGY_DRIFT, GROUP, MOMENTUM, WRONG};
 use super::{Class, Map};
@@ -75,11 +75,12 @@ fn tiles(map: &Map, method: usize) -> Tiles {
 
 fn thresholds(until: f64) -> String {
     format!(
-        "Each tile is a run of {until} s. Energy: off by {:.0} % of the largest kinetic energy, or on a line that moves by {:.0} % of it and \
+        "Each tile is a run of {} s. Energy: off by {:.0} % of the largest kinetic energy, or on a line that moves by {:.0} % of it and \
          explains more than half of the variance. Momentum: off by {MOMENTUM:e} of that of the largest kinetic energy. Group: an orthogonality \
          error of {GROUP:e}. Refused: a typed error. Silently wrong: none of this, and an attitude \
          is off by {WRONG} rad after a step, or as many as turn a body by half a radian, from a state of the \
          run.",
+        decimal(until),
         100.0 * ENERGY_BAND,
         100.0 * ENERGY_DRIFT,
     )

@@ -21,8 +21,8 @@ pub(super) fn run(
     h: f64,
     late: &dyn Fn() -> bool,
 ) -> Option<Outcome> {
-    // A remainder of rounding is no step.
-    let steps = (problem.until / h - 1e-9).ceil().max(1.0) as u64;
+    // The whole steps that there is room for; one that rounding alone leaves out is one of them.
+    let steps = (problem.until / h + 1e-9).floor().max(1.0) as u64;
     let (integrator, clock) = (contender.integrator(problem)?, Clock::counted(steps, h));
     let mut trial = Trial {
         problem,

@@ -2,6 +2,8 @@
 
 use core::fmt::Write;
 
+use sim::number::decimal;
+
 use super::{Limit, Map, Outcome, Wall};
 use crate::work_precision::{optional, quoted};
 
@@ -17,6 +19,7 @@ pub fn csv(map: &Map) -> String {
             let Limit { wall, next, .. } = *map.limit(m, v);
             for (s, step) in grid.steps.iter().enumerate() {
                 let (order, parameter) = (method.order(), grid.parameter);
+                let [value, step] = [*value, *step].map(decimal);
                 let wall = if next == Some(s) { wall } else { Wall::None };
                 let rest = cell(map.cell(m, v, s), wall);
                 // A string takes what is written to it.
@@ -32,7 +35,7 @@ fn cell(outcome: &Outcome, wall: Wall) -> String {
     format!(
         "{},{},{},{},{:e},{},{:e},{},{},{}",
         outcome.class,
-        outcome.t,
+        decimal(outcome.t),
         optional(outcome.energy),
         optional(outcome.drift),
         outcome.trend,

@@ -108,9 +108,7 @@ impl Limit {
         late: bool,
     ) -> Self {
         // Long steps are run first: where the time is over, it is the short ones that are missing.
-        let tried = cells
-            .iter()
-            .position(|cell| !cell.had_no_time(problem.until));
+        let tried = cells.iter().position(|cell| !cell.had_no_time());
         let untried = tried.unwrap_or(0);
         let good = cells[untried..].iter();
         let good = untried + good.take_while(|cell| cell.class == Class::Good).count();

@@ -4,6 +4,7 @@ use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::State;
 use serde::Serialize;
 use sim::Method;
+use sim::number::decimal;
 use thiserror::Error;
 
 use super::horizon::TOLERANCE;
@@ -90,10 +91,13 @@ impl Reference {
             format!("{time:.0e}")
         };
         format!(
-            "Reference: 8(5,3) in charts at {TOLERANCE:e}, which {CHECK} in {} steps confirms to {:.1e} rad and {:.1e} m. By t = {until} s a \
+            "Reference: 8(5,3) in charts at {TOLERANCE:e}, which {CHECK} in {} steps confirms to {:.1e} rad and {:.1e} m. By t = {} s a \
              difference has grown {growth:.0e} times; rounding would be a radian {about} t = {time} s, and no trajectory means \
              anything beyond.",
-            self.check_steps, self.attitude, self.position
+            self.check_steps,
+            self.attitude,
+            self.position,
+            decimal(until)
         )
     }
 }

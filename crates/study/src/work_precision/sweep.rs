@@ -78,18 +78,9 @@ impl Curve {
         Some(format!("{name}, {count} {settings} to {setting}: {cause}"))
     }
 
-    /// Times all points once more, and keeps the least; `heed` is called before each, and its error ends it.
-    ///
-    /// # Errors
-    /// Those of `heed`.
-    pub fn time_again<E>(
-        &mut self,
-        problem: &Problem,
-        timing: Timing,
-        mut heed: impl FnMut() -> Result<(), E>,
-    ) -> Result<(), E> {
+    /// Times all points once more, and keeps the least.
+    pub fn time_again(&mut self, problem: &Problem, timing: Timing) {
         for Point { setting, outcome } in &mut self.points {
-            heed()?;
             let Ok(measured) = outcome else { continue };
             // What has run once runs again: a failure would be none of the method's.
             if let Ok((cost, runs)) = timing.measure(self.contender, problem, *setting) {
@@ -97,7 +88,6 @@ impl Curve {
                 measured.runs += runs;
             }
         }
-        Ok(())
     }
 }
 
