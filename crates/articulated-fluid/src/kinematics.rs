@@ -15,7 +15,50 @@ const FEW: usize = 8;
 /// A quantity of each body.
 pub(crate) type PerBody<T> = SmallVec<[T; FEW]>;
 
+/// Where the bodies of a state are and how they move, in the order of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kinematics {
+    /// From body to reference frame.
+    pub attitudes: Vec<SO3>,
+    /// Angular velocities, rad/s, each in its body's frame.
+    pub rates: Vec<Vec3>,
+    /// Mass centres, m, reference frame.
+    pub centres: Vec<Vec3>,
+    /// The velocity of the first body's mass centre, m/s, reference frame.
+    pub velocity: Vec3,
+    /// The angular momentum about the base, kg m²/s, reference frame: the first body's mass centre, or its joint to the world.
+    pub spin: Vec3,
+    /// Where that is, m, reference frame.
+    pub base: Vec3,
+}
+
 impl ArticulatedBody {
+    /// Where the bodies are and how they move, at a time, a configuration and a velocity.
+    ///
+    /// # Errors
+    /// As [`attitudes`](Self::attitudes).
+    pub fn kinematics(
+        &self,
+        t: f64,
+        g: &Configuration,
+        xi: &Velocity,
+    ) -> Result<Kinematics, ModelError> {
+        let centres = self.centre_positions(t, g)?;
+        let mut pose = Pose::default();
+        let (r, pose) = self.pose(t, g, &mut pose);
+        let (rates, velocities) = self.body_velocities((r, pose), xi);
+        let (p, _) = self.body_momenta((r, pose), xi);
+        let spins = r.iter().zip(&p).map(|(r, p)| r.rotate(*p));
+        Ok(Kinematics {
+            attitudes: r.to_vec(),
+            rates: rates.to_vec(),
+            centres,
+            velocity: r[0].rotate(velocities[0]),
+            spin: spins.fold(Vec3::zero(), |sum, spin| sum + spin),
+            base: self.base_position(pose, g),
+        })
+    }
+
     /// The attitudes of all bodies at the time of a state, body to reference frame.
     ///
     /// # Errors

@@ -77,6 +77,7 @@ pub use discrete::StepWorkspace;
 pub use ellipsoid::{Ellipsoid, EllipsoidError};
 pub use error::ModelError;
 pub use joints::{Hinge, JointKind};
+pub use kinematics::Kinematics;
 pub use lagrangian::Evaluation;
 pub use motion::Motion;
 pub use node::{Body, Joint};

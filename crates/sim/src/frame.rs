@@ -1,18 +1,18 @@
 //! What is seen of a run at one time.
 
-use articulated_fluid::{ArticulatedBody, Configuration, Conserved, ModelError};
+use articulated_fluid::{ArticulatedBody, Configuration, Conserved, Kinematics, ModelError};
 use dvi::State;
-use lie::{LieGroup, SO3, Vec3};
+use lie::{LieGroup, Vec3};
 
-/// A state of a scene, its velocity, and what the motion keeps of it.
+/// A state of a scene, how its bodies move, and what the motion keeps of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Time, configuration and momentum.
     pub state: State<Configuration>,
-    /// The velocity $\xi = ((\Omega_0, \dots, \Omega_n), \dot x)$, rad/s and m/s.
+    /// The velocity $\xi$ of what joints and base leave free, rad/s and m/s.
     pub velocity: <Configuration as LieGroup>::Algebra,
-    /// The bodies' mass centres, m, reference frame, in the order of the scene.
-    pub centres: Vec<Vec3>,
+    /// The bodies, in the order of the scene.
+    pub bodies: Kinematics,
     /// The conserved quantities.
     pub sample: Sample,
 }
@@ -24,14 +24,14 @@ impl Frame {
     /// [`ModelError::Shape`] where the state does not fit the model, [`ModelError::NotFinite`] where a quantity is not finite.
     pub fn new(model: &ArticulatedBody, state: State<Configuration>) -> Result<Self, ModelError> {
         let (velocity, kept) = model.velocity_and_conserved(&state)?;
-        let centres = model.centre_positions(&state.g);
+        let bodies = model.kinematics(state.t, &state.g, &velocity)?;
         let quantity = "position";
-        if !centres.iter().all(|centre| centre.is_finite()) {
+        if !bodies.centres.iter().all(|centre| centre.is_finite()) {
             return Err(ModelError::NotFinite { quantity });
         }
         Ok(Self {
             velocity,
-            centres,
+            bodies,
             sample: Sample::new(model, &state, kept),
             state,
         })
@@ -42,47 +42,30 @@ impl Frame {
         self.state.t
     }
 
-    /// The number of bodies.
-    pub fn bodies(&self) -> usize {
-        self.state.g.0.len()
-    }
-
     /// The mass centre of the first body, m, reference frame.
     pub fn position(&self) -> Vec3 {
-        self.state.g.1[0].vec3()
+        self.bodies.centres[0]
     }
 
-    /// The velocity of the mass centre of the first body, m/s, reference frame.
-    pub fn velocity_of_first(&self) -> Vec3 {
-        self.velocity.1[0].vec3()
-    }
-
-    /// The bodies' attitudes, body to reference frame, in the order of the scene.
-    pub fn attitudes(&self) -> &[SO3] {
-        &self.state.g.0
-    }
-
-    /// The bodies' angular velocities, rad/s, each in its body's frame.
-    pub fn rates(&self) -> impl Iterator<Item = Vec3> {
-        self.velocity.0.iter().map(|omega| omega.vec3())
+    /// The angle, rad, and the rate, rad/s, of a free hinge, counted in the order of the scene.
+    pub fn hinge(&self, k: usize) -> Option<[f64; 2]> {
+        let (q, rate) = (self.state.g.2.get(k)?, self.velocity.2.get(k)?);
+        Some([q.0[0], rate[0]])
     }
 
     /// The centre of the bodies with these masses, m, reference frame: $\sum_i m_i x_i / \sum_i m_i$.
     pub fn centre_of(&self, masses: &[f64]) -> Vec3 {
         // From the first body, so that a far origin takes no digits, and in parts of the whole, as masses may be of any size.
         let (first, total) = (self.position(), masses.iter().sum::<f64>());
-        let bodies = self.centres.iter().zip(masses);
+        let bodies = self.bodies.centres.iter().zip(masses);
         bodies.fold(first, |centre, (x, mass)| {
             centre + (*x - first) * (mass / total)
         })
     }
 
-    /// The angular momentum about the point $c$, $(x - c) \times p_x + \sum_i R_i p_i$, kg m²/s, reference frame.
+    /// The angular momentum about the point $c$, kg m²/s, reference frame.
     pub fn angular_about(&self, c: Vec3) -> Vec3 {
-        let (p, linear) = &self.state.mu;
-        let spins = self.attitudes().iter().zip(p.iter());
-        let orbital = (self.position() - c).cross(linear[0].vec3());
-        spins.fold(orbital, |sum, (r, p)| sum + r.rotate(p.vec3()))
+        (self.bodies.base - c).cross(self.sample.linear) + self.bodies.spin
     }
 }
 

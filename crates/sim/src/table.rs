@@ -34,6 +34,14 @@ enum Read {
     Whole(fn(&Seen, &mut [f64])),
     /// Of the body with this number; columns of bodies side by side are written body by body.
     Body(fn(&Seen, usize, &mut [f64])),
+    /// Of the free hinge with this number, likewise.
+    Hinge(fn(&Seen, usize, &mut [f64])),
+}
+
+/// The bodies and the free hinges of a scene, by their names.
+struct Names {
+    bodies: Vec<String>,
+    hinges: Vec<String>,
 }
 
 const fn whole(
@@ -62,6 +70,19 @@ const fn body(
     }
 }
 
+const fn hinge(
+    names: &'static [&'static str],
+    meaning: &'static str,
+    read: fn(&Seen, usize, &mut [f64]),
+) -> Column {
+    Column {
+        names,
+        meaning,
+        is_extra: false,
+        read: Read::Hinge(read),
+    }
+}
+
 const fn extra(column: Column) -> Column {
     Column {
         is_extra: true,
@@ -77,18 +98,21 @@ pub const COLUMNS: &[Column] = &[
         to.copy_from_slice(&seen.frame.position().0);
     }),
     extra(whole(&["vx", "vy", "vz"], "its velocity in the reference frame, m/s", |seen, to| {
-        to.copy_from_slice(&seen.frame.velocity_of_first().0);
+        to.copy_from_slice(&seen.frame.bodies.velocity.0);
     })),
     body(&["qw", "qx", "qy", "qz"], "unit quaternion from body to reference frame, its sign continuous", |seen, i, to| {
-        let q = seen.frame.attitudes().get(i).map_or([0.0; 4], SO3::to_quaternion);
+        let q = seen.frame.bodies.attitudes.get(i).map_or([0.0; 4], SO3::to_quaternion);
         to.copy_from_slice(&nearer(q, to));
     }),
     body(&["wx", "wy", "wz"], "angular velocity of the body in its own frame, rad/s", |seen, i, to| {
-        to.copy_from_slice(&seen.frame.rates().nth(i).map_or([0.0; 3], |rate| rate.0));
+        to.copy_from_slice(&seen.frame.bodies.rates.get(i).map_or([0.0; 3], |rate| rate.0));
     }),
     extra(body(&["x", "y", "z"], "mass centre of the body in the reference frame, m", |seen, i, to| {
-        to.copy_from_slice(&seen.frame.centres.get(i).map_or([0.0; 3], |centre| centre.0));
+        to.copy_from_slice(&seen.frame.bodies.centres.get(i).map_or([0.0; 3], |centre| centre.0));
     })),
+    hinge(&["angle", "rate"], "angle of a free hinge, not wrapped, rad, and its rate, rad/s", |seen, k, to| {
+        to.copy_from_slice(&seen.frame.hinge(k).unwrap_or([f64::NAN; 2]));
+    }),
     whole(&["energy"], "of bodies and fluid, kinetic and potential, J", |seen, to| to.fill(seen.frame.sample.energy)),
     whole(&["px", "py", "pz"], "linear momentum from the velocities, in the reference frame, kg m/s", |seen, to| {
         to.copy_from_slice(&seen.frame.sample.linear.0);
@@ -117,22 +141,41 @@ impl Column {
         match self.read {
             Read::Whole(_) => self.names.join(","),
             Read::Body(_) => format!("NAME.{}", self.names.join(",.")),
+            Read::Hinge(_) => format!("JOINT.{}", self.names.join(",.")),
         }
-    }
-
-    fn is_of_bodies(&self) -> bool {
-        matches!(self.read, Read::Body(_))
     }
 }
 
-/// The columns in the order of a table, those of bodies with the number of the body.
+impl Names {
+    fn of(scene: &Scene) -> Self {
+        Self {
+            bodies: scene.bodies.iter().map(|body| body.name.clone()).collect(),
+            hinges: scene.free_hinges().map(str::to_owned).collect(),
+        }
+    }
+
+    /// What columns are of.
+    fn of_column(&self, column: &Column) -> &[String] {
+        match column.read {
+            Read::Whole(_) => &[],
+            Read::Body(_) => &self.bodies,
+            Read::Hinge(_) => &self.hinges,
+        }
+    }
+}
+
+/// The columns in the order of a table, those of bodies and hinges with their numbers.
 fn columns(
     chosen: &[&'static Column],
-    bodies: usize,
+    names: &Names,
 ) -> impl Iterator<Item = (&'static Column, usize)> {
-    let alike = |a: &&Column, b: &&Column| a.is_of_bodies() == b.is_of_bodies();
-    chosen.chunk_by(alike).flat_map(move |group| {
-        let times = if group[0].is_of_bodies() { bodies } else { 1 };
+    let kind = |column: &Column| core::mem::discriminant(&column.read);
+    let groups = chosen.chunk_by(move |a, b| kind(a) == kind(b));
+    groups.flat_map(move |group| {
+        let times = match group[0].read {
+            Read::Whole(_) => 1,
+            _ => names.of_column(group[0]).len(),
+        };
         (0..times).flat_map(move |i| group.iter().map(move |column| (*column, i)))
     })
 }
@@ -143,6 +186,7 @@ pub struct Table<W> {
     chosen: Vec<&'static Column>,
     /// What the bodies count in the centre of mass, kg.
     masses: Vec<f64>,
+    names: Names,
     row: Vec<f64>,
     line: String,
 }
@@ -166,20 +210,23 @@ impl<W: Write> Table<W> {
 
     fn of(mut out: W, scene: &Scene, is_chosen: fn(&Column) -> bool) -> io::Result<Self> {
         let chosen: Vec<_> = COLUMNS.iter().filter(|column| is_chosen(column)).collect();
-        let names = columns(&chosen, scene.bodies.len()).flat_map(|(column, i)| {
-            let name = move |name: &&str| match column.read {
-                Read::Whole(_) => (*name).to_owned(),
-                Read::Body(_) => quoted(format!("{}.{name}", scene.bodies[i].name)),
+        let names = Names::of(scene);
+        let header = columns(&chosen, &names).flat_map(|(column, i)| {
+            let of = names.of_column(column).get(i);
+            let name = move |name: &&str| match of {
+                None => (*name).to_owned(),
+                Some(of) => quoted(format!("{of}.{name}")),
             };
             column.names.iter().map(name)
         });
-        let names: Vec<_> = names.collect();
-        writeln!(out, "{}", names.join(","))?;
+        let header: Vec<_> = header.collect();
+        writeln!(out, "{}", header.join(","))?;
         Ok(Self {
             out,
             chosen,
             masses: scene.centre_masses(),
-            row: vec![0.0; names.len()],
+            row: vec![0.0; header.len()],
+            names,
             line: String::new(),
         })
     }
@@ -189,17 +236,17 @@ impl<W: Write> Table<W> {
     /// # Errors
     /// Those of `out`; [`InvalidInput`](io::ErrorKind::InvalidInput) of a frame with another number of bodies.
     pub fn row(&mut self, frame: &Frame) -> io::Result<()> {
-        if frame.bodies() != self.masses.len() {
+        if frame.bodies.attitudes.len() != self.masses.len() {
             return Err(io::ErrorKind::InvalidInput.into());
         }
         let centre = frame.centre_of(&self.masses);
         let seen = Seen { frame, centre };
         let mut rest = &mut self.row[..];
-        for (column, i) in columns(&self.chosen, self.masses.len()) {
+        for (column, i) in columns(&self.chosen, &self.names) {
             let (to, after) = rest.split_at_mut(column.names.len());
             match column.read {
                 Read::Whole(read) => read(&seen, to),
-                Read::Body(read) => read(&seen, i, to),
+                Read::Body(read) | Read::Hinge(read) => read(&seen, i, to),
             }
             rest = after;
         }

@@ -204,6 +204,25 @@ pub struct Mobility {
 }
 
 impl Scene {
+    /// The names of the joints that are free hinges, in the order of the model.
+    pub fn free_hinges(&self) -> impl Iterator<Item = &str> {
+        let mut joints: Vec<&SceneJoint> = self.joints.iter().collect();
+        joints.sort_by_key(|joint| joint.child);
+        let mount = self
+            .mount
+            .iter()
+            .map(|mount| (&mount.name, &mount.mobility));
+        let joints = joints
+            .into_iter()
+            .map(|joint| (&joint.name, &joint.mobility));
+        mount
+            .chain(joints)
+            .filter_map(|(name, mobility)| match mobility.kind {
+                JointKind::Hinge(_) => Some(name.as_str()),
+                _ => None,
+            })
+    }
+
     /// What the joint of body `i` leaves free; `None` of a free base.
     pub(crate) fn mobility(&self, i: usize) -> Option<&Mobility> {
         match i {

@@ -92,7 +92,7 @@ impl Sample {
     }
 
     /// The centres from the first body on: $x_p + R_p d_{pi} - R_i d_{ip}$.
-    pub fn centres<S: Scalar>(&self, (r, x): &Configuration<S>) -> Vec<Vec3<S>> {
+    pub fn centres<S: Scalar>(&self, (r, x, _): &Configuration<S>) -> Vec<Vec3<S>> {
         let mut centres = vec![x[0].vec3()];
         for joint in &self.joints {
             let on = r[joint.parent].rotate(joint.at_parent.lift());
@@ -191,8 +191,13 @@ pub fn alone<X>(x: impl Into<X>) -> Power<X> {
     Power::new(vec![x.into()])
 }
 
+/// No hinges.
+pub fn none<X>() -> Power<X> {
+    Power::new(vec![])
+}
+
 /// The attitudes' matrices and the position.
-pub fn entries((r, x): &Configuration) -> Vec<f64> {
+pub fn entries((r, x, _): &Configuration) -> Vec<f64> {
     let attitudes = r.iter().flat_map(|r| r.matrix().0.concat());
     attitudes.chain(x[0].0).collect()
 }
@@ -287,7 +292,7 @@ pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value 
                     .enumerate()
                     .map(joint)
                     .collect();
-                let pose = |x: Vec3, r: Vec<SO3>| (Power::new(r), alone(x));
+                let pose = |x: Vec3, r: Vec<SO3>| (Power::new(r), alone(x), none());
                 Sample {
                     model: build(&bodies, &joints, &weight),
                     bodies,
@@ -296,7 +301,11 @@ pub fn sample_of(shape: Shape, others: usize, size: f64) -> impl Strategy<Value 
                     stiffnesses,
                     g: pose(x, r),
                     f: pose(dx, f),
-                    xi: (omega.into_iter().map(Tangent::from).collect(), alone(v)),
+                    xi: (
+                        omega.into_iter().map(Tangent::from).collect(),
+                        alone(v),
+                        Power::new(vec![]),
+                    ),
                 }
                 .rebuilt()
             },
@@ -327,7 +336,7 @@ pub fn gentle(shape: Shape, bodies: usize) -> (ArticulatedBody, State<Configurat
     let turns = (0..bodies).map(|i| SO3::exp(&wave(i))).collect();
     let rates = (0..bodies).map(|i| wave(i + 5)).collect();
     let (x, v) = (alone(Vec3::zero()), alone(Vec3([0.2, -0.1, 0.1])));
-    let start = model.state(0.0, (turns, x), &(rates, v));
+    let start = model.state(0.0, (turns, x, none()), &(rates, v, none()));
     (model, start.expect("a state"))
 }
 
@@ -364,7 +373,7 @@ pub struct Paper {
 
 impl Paper {
     pub fn new(sample: &Sample) -> Self {
-        let [one, two] = [sample.joints[0], sample.joints[1]];
+        let [one, two] = [&sample.joints[0], &sample.joints[1]];
         Self {
             m: [0, 1, 2].map(|i| sample.bodies[i].mass),
             j: [0, 1, 2].map(|i| sample.bodies[i].inertia),

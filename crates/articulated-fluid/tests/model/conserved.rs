@@ -60,8 +60,8 @@ proptest! {
     #[test]
     fn both_bodies_of_a_joint_meet_in_it(sample in any_sample()) {
         let Sample { model, joints, g, .. } = &sample;
-        let centres: Vec<_> = model.centre_positions(g);
-        let at: Vec<_> = model.joint_positions(g);
+        let centres: Vec<_> = model.centre_positions(0.0, g).expect("a state");
+        let at: Vec<_> = model.joint_positions(0.0, g).expect("a state");
         prop_assert_eq!((centres.len(), at.len()), (joints.len() + 1, joints.len()));
         prop_assert_eq!(centres[0], g.1[0].vec3());
         let on = |body: usize, point: Vec3| centres[body] + g.0[body].rotate(point);
@@ -77,7 +77,7 @@ proptest! {
         let (g, _) = flow(&sample);
         let path = sample.centres(&g);
         let here: Vec<f64> = path.iter().flat_map(|c| c.0.map(|x| x.value())).collect();
-        let found: Vec<_> = sample.model.centre_positions(&sample.g);
+        let found: Vec<_> = sample.model.centre_positions(0.0, &sample.g).expect("a state");
         // Rounding of lengths up to 20.
         assert_close(&flat(&found), &here, 2e-14);
         let slopes: Vec<f64> = path.iter().flat_map(|c| c.0.map(|x| x.partial(0))).collect();

@@ -89,7 +89,7 @@ proptest! {
     #[test]
     fn the_position_enters_by_the_weight_alone(sample in any_sample(), x in vector(1e6)) {
         let Sample { model, g, f, .. } = &sample;
-        let elsewhere = (g.0.clone(), alone(x));
+        let elsewhere = (g.0.clone(), alone(x), none());
         let (here, there) = (closed(model, g, f, H), closed(model, &elsewhere, f, H));
         prop_assert_eq!(here.d_f, there.d_f);
         prop_assert_eq!(&here.d_g, &there.d_g);
@@ -112,8 +112,8 @@ proptest! {
     fn a_rotation_of_the_whole_system_and_of_gravity_changes_nothing(sample in any_sample(), q in attitude()) {
         let Sample { model, g, f, .. } = &sample;
         let whole = |r: &SO3| q.compose(r);
-        let rotated = (g.0.iter().map(whole).collect(), alone(q.rotate(g.1[0].vec3())));
-        let carried = (f.0.clone(), alone(q.rotate(f.1[0].vec3())));
+        let rotated = (g.0.iter().map(whole).collect(), alone(q.rotate(g.1[0].vec3())), none());
+        let carried = (f.0.clone(), alone(q.rotate(f.1[0].vec3())), none());
         let mut turned = sample.clone();
         if let Some((gravity, _)) = &mut turned.weight {
             *gravity = q.rotate(*gravity);

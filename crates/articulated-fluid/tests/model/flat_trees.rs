@@ -6,7 +6,7 @@ use dvi::{Lagrangian, State};
 use lie::{AlgebraOver, LieGroup, Mat3, Rn, SO2, SO3, Tangent, Vec3};
 use proptest::prelude::*;
 
-use crate::common::{alone, spd, stiffnesses};
+use crate::common::{alone, none, spd, stiffnesses};
 
 /// A tree in the plane $z = 0$, body by body, each with the frame and the motion that it is given.
 #[derive(Clone, Debug)]
@@ -79,7 +79,7 @@ impl Flat {
             turned.compose(&part.frame.inverse())
         };
         let x = self.world.rotate(Vec3(self.position));
-        (self.parts.iter().map(attitude).collect(), alone(x))
+        (self.parts.iter().map(attitude).collect(), alone(x), none())
     }
 
     pub fn velocity(&self) -> AlgebraOver<Configuration, f64> {
@@ -88,7 +88,11 @@ impl Flat {
             Tangent::from(spin)
         };
         let velocity = self.world.rotate(flat(self.velocity));
-        (self.parts.iter().map(rate).collect(), alone(velocity))
+        (
+            self.parts.iter().map(rate).collect(),
+            alone(velocity),
+            none(),
+        )
     }
 
     pub fn state(&self) -> State<Configuration> {

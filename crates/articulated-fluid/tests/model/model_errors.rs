@@ -210,6 +210,7 @@ fn configuration(bodies: usize) -> Configuration {
     (
         Power::new(vec![SO3::identity(); bodies]),
         alone(R3::identity()),
+        Power::new(vec![]),
     )
 }
 
@@ -223,6 +224,7 @@ fn a_state_with_another_number_of_bodies_is_refused() {
         mu: (
             Power::new(vec![Cotangent::zero(); momenta]),
             alone(Cotangent::zero()),
+            Power::new(vec![]),
         ),
     };
     for (attitudes, momenta, found) in [
@@ -233,7 +235,10 @@ fn a_state_with_another_number_of_bodies_is_refused() {
         (4, 3, 4),
         (3, 5, 5),
     ] {
-        let refused = ModelError::Shape { expected: 3, found };
+        let refused = ModelError::Shape {
+            expected: [3, 1, 0],
+            found: [found, 1, 0],
+        };
         let state = state(attitudes, momenta);
         assert_eq!(model.conserved(&state), Err(refused.clone()));
         assert_eq!(model.velocity(&state), Err(refused));

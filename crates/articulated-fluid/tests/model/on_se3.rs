@@ -22,7 +22,11 @@ fn direct<S: Scalar>(
     translation: Vec3<S>,
 ) -> Configuration<S> {
     let attitudes = once(head.rotation).chain(tails.iter().copied());
-    (attitudes.collect(), once(R3::from(translation)).collect())
+    (
+        attitudes.collect(),
+        once(R3::from(translation)).collect(),
+        Power::new(vec![]),
+    )
 }
 
 impl System for OnSe3 {
@@ -63,13 +67,13 @@ impl OnSe3 {
         State {
             t: state.t,
             g: direct(&state.g, head.translation),
-            mu: (spins.collect(), once(linear).collect()),
+            mu: (spins.collect(), once(linear).collect(), Power::new(vec![])),
         }
     }
 
     /// The inverse of [`to_direct`](Self::to_direct).
     pub fn from_direct(state: &State<Configuration>) -> State<SemidirectConfiguration> {
-        let ((r, x), (p, px)) = (&state.g, &state.mu);
+        let ((r, x, _), (p, px, _)) = (&state.g, &state.mu);
         let linear = r[0].inverse_rotate(px[0].vec3());
         State {
             t: state.t,

@@ -10,7 +10,7 @@ use lie::{LieGroup, SO3, VectorSpace};
 use proptest::prelude::*;
 
 use crate::common::{
-    self, Matrix, action, alone, assert_close, at_zero, entries, largest, solve, spoil,
+    self, Matrix, action, alone, assert_close, at_zero, entries, largest, none, solve, spoil,
 };
 use crate::flat_trees::*;
 
@@ -43,7 +43,7 @@ fn in_space(plane: &Plane, g: &Configuration, f: &PlanarConfiguration) -> Config
     };
     let dx = at(f.clone()) - at(f.identity_like());
     let turns = g.0.iter().zip(f.0.iter()).map(|(r, f)| turn(r, f.angle()));
-    (turns.collect(), alone(dx))
+    (turns.collect(), alone(dx), none())
 }
 
 /// The coordinates of a momentum in space that one in the plane is.

@@ -8,7 +8,7 @@ use dvi::{
 use lie::{LieGroup, Mat3, Power, SO3, Tangent, Vec3, VectorSpace};
 use proptest::prelude::*;
 
-use crate::common::{Velocity, alone, assert_close};
+use crate::common::{Velocity, alone, none, assert_close};
 use crate::flat_trees::*;
 
 /// How far one thing is tilted out of the plane.
@@ -173,10 +173,11 @@ fn attached(size: f64, off: f64, spin: [f64; 3]) -> Result<Plane, NotPlanar> {
         child: 1,
         at_parent: Vec3([size, 0.0, 0.0]),
         at_child: Vec3([0.5, 0.0, off]),
+        kind: Default::default(),
     };
     let model = ArticulatedBody::new(&[sized(size), sized(1.0)], &[joint]).expect("a model");
     let rates = vec![Tangent::zero(), Tangent(spin)];
-    let xi = (Power::new(rates), alone(Tangent::zero()));
+    let xi = (Power::new(rates), alone(Tangent::zero()), none());
     Plane::find(
         &model,
         &model.state(0.0, model.aligned(), &xi).expect("a state"),
@@ -203,7 +204,7 @@ fn a_slow_spin_of_a_fast_body_is_judged_as_a_spin() {
     for (speed, rate) in [(1.0, 1.0), (1e3, 1.0), (1e3, 0.0)] {
         let found = |off: f64| {
             let omega = Tangent([off, 0.0, rate]);
-            let xi = (alone(omega), alone(Tangent([speed, 0.0, 0.0])));
+            let xi = (alone(omega), alone(Tangent([speed, 0.0, 0.0])), none());
             Plane::find(
                 &model,
                 &model.state(0.0, model.aligned(), &xi).expect("a state"),
@@ -282,7 +283,7 @@ fn weights_that_balance_have_no_part_along_the_normal() {
             .expect("a weight");
         let spin = |rate: f64| Tangent([0.0, 0.0, rate]);
         let rates = [1.0, 2.0, 2.0, 2.0].map(spin);
-        let xi = (Power::new(rates.to_vec()), alone(Tangent::zero()));
+        let xi = (Power::new(rates.to_vec()), alone(Tangent::zero()), none());
         Plane::find(
             &model,
             &model.state(0.0, model.aligned(), &xi).expect("a state"),
@@ -325,7 +326,7 @@ proptest! {
         prop_assert!(plane.contains(&state));
         let back = plane.lift(&plane.project(&state));
         prop_assert!(model.orthogonality_error(&back.g) < 4e-15);
-        let joints = |g: &Configuration| model.centre_positions(g).iter().flat_map(|x| x.0).collect::<Vec<_>>();
+        let joints = |g: &Configuration| model.centre_positions(0.0, g).expect("a state").iter().flat_map(|x| x.0).collect::<Vec<_>>();
         assert_close(&joints(&back.g), &joints(&state.g), 1e-12);
         assert_close(&back.mu.coordinates(), &state.mu.coordinates(), 1e-12);
     }

@@ -66,7 +66,7 @@ fn every_scene_has_a_model_and_an_initial_state() {
             "{name}"
         );
         // The momentum's velocity is the scene's: rounding times the condition of the inertia.
-        let (rates, velocity) = model.velocity(&state).expect("the model's state");
+        let (rates, velocity, _) = model.velocity(&state).expect("the model's state");
         if let StartVelocity::Given(given) = scene.velocity {
             assert_close(&name, velocity[0].vec3(), given);
         }
@@ -148,8 +148,12 @@ fn step(model: &ArticulatedBody, state: &mut State<Configuration>) {
 fn the_planar_fish_stays_in_its_plane() {
     let (model, mut state, _) = start(&load("planar-fish.toml"));
     step(&model, &mut state);
-    let (rates, velocity) = model.velocity(&state).expect("the model's state");
-    let heights = model.centre_positions(&state.g).into_iter().map(|x| x[2]);
+    let (rates, velocity, _) = model.velocity(&state).expect("the model's state");
+    let heights = model
+        .centre_positions(state.t, &state.g)
+        .unwrap()
+        .into_iter()
+        .map(|x| x[2]);
     let tilts = rates.iter().flat_map(|rate| [rate[0], rate[1]]);
     let mut out_of_plane = heights.chain(tilts).chain([velocity[0][2]]);
     assert!(out_of_plane.all(|x| x == 0.0));

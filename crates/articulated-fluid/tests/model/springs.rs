@@ -61,6 +61,7 @@ fn pair(inertias: [[f64; 3]; 2], stiffness: f64) -> ArticulatedBody {
         child: 1,
         at_parent: Vec3::zero(),
         at_child: Vec3::zero(),
+        kind: Default::default(),
     };
     let free = ArticulatedBody::new(&bodies, &[joint]).expect("a model");
     free.with_stiffness(&[stiffness]).expect("springs")
@@ -139,6 +140,7 @@ fn chain() -> (ArticulatedBody, State<Configuration>) {
     let xi = (
         rates.into_iter().map(Tangent).collect(),
         alone(Tangent([0.3, -0.1, 0.2])),
+        none(),
     );
     let start = model.state(0.0, g, &xi).expect("a state");
     (model, start)

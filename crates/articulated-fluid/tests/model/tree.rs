@@ -215,7 +215,7 @@ proptest! {
             // The first order moves the fall by half a step: g t (t + h) / 2, here without another error.
             let t = H * k as f64;
             let way = gravity * (t * (t + H) / 2.0);
-            let expected = (floats.g.0.clone(), alone(floats.g.1[0].vec3() + way));
+            let expected = (floats.g.0.clone(), alone(floats.g.1[0].vec3() + way), none());
             // The steps' tolerances, and what the motion makes of them: over a hundred steps, up to this.
             assert_close(&entries(&falls.g), &entries(&expected), 1e-11);
             if weightless.joints.is_empty() {
@@ -240,16 +240,16 @@ proptest! {
         }
         let place = |old: usize| order.iter().position(|o| *o == old).expect("a place");
         let bodies: Vec<_> = order.iter().map(|old| sample.bodies[*old]).collect();
-        let renamed = |j: &Joint| Joint { parent: place(j.parent), child: place(j.child), ..*j };
+        let renamed = |j: &Joint| Joint { parent: place(j.parent), child: place(j.child), ..j.clone() };
         let joints: Vec<_> = sample.joints.iter().map(renamed).collect();
         let weight = sample.weight.clone();
         let weight = weight.map(|(g, m)| (g, order.iter().map(|old| m[*old]).collect()));
         let rename = |state: &State<Configuration>| {
-            let ((r, x), (p, px)) = (&state.g, &state.mu);
+            let ((r, x, _), (p, px, _)) = (&state.g, &state.mu);
             State {
                 t: state.t,
-                g: (order.iter().map(|i| r[*i]).collect(), x.clone()),
-                mu: (order.iter().map(|i| p[*i]).collect(), px.clone()),
+                g: (order.iter().map(|i| r[*i]).collect(), x.clone(), state.g.2.clone()),
+                mu: (order.iter().map(|i| p[*i]).collect(), px.clone(), state.mu.2.clone()),
             }
         };
         let start = sample.state();
@@ -315,7 +315,11 @@ fn buoy() -> (ArticulatedBody, State<Configuration>) {
     let model = build(&[Body { mass, inertia }; 4], &joints, &weight);
     let tilt = |x: f64, y: f64| SO3::exp(&Tangent([x, y, 0.0]));
     let tilts = [(0.3, 0.1), (-0.2, 0.3), (0.4, 0.0), (0.1, -0.5)].map(|(x, y)| tilt(x, y));
-    let g = (Power::new(tilts.to_vec()), alone(lie::R3::identity()));
+    let g = (
+        Power::new(tilts.to_vec()),
+        alone(lie::R3::identity()),
+        none(),
+    );
     let start = model
         .state(0.0, g, &model.aligned().zero_algebra())
         .expect("a state");

@@ -175,6 +175,7 @@ fn the_root_matters_to_the_first_order_by_its_error() {
         child: 1,
         at_parent: Vec3([0.5, 0.1, 0.0]),
         at_child: Vec3([-0.7, 0.0, 0.2]),
+        kind: Default::default(),
     };
     let body = |m: f64| articulated_fluid::Body {
         mass: Mat3::diagonal([m, 2.0 * m, 2.5 * m]),
@@ -204,7 +205,7 @@ fn the_root_matters_to_the_first_order_by_its_error() {
 /// Two bodies, aligned, that spin while the first moves at this velocity.
 fn spinning(model: &ArticulatedBody, velocity: [f64; 3]) -> State<Configuration> {
     let rates = [[0.5, -0.3, 0.8], [-0.4, 0.6, 0.1]].map(Tangent);
-    let xi = (Power::new(rates.to_vec()), alone(Tangent(velocity)));
+    let xi = (Power::new(rates.to_vec()), alone(Tangent(velocity)), none());
     model.state(0.0, model.aligned(), &xi).expect("a state")
 }
 
@@ -219,6 +220,7 @@ fn falling() -> (ArticulatedBody, State<Configuration>) {
         child: 1,
         at_parent: Vec3([0.5, 0.1, 0.0]),
         at_child: Vec3([-0.7, 0.0, 0.2]),
+        kind: Default::default(),
     };
     let model = ArticulatedBody::new(&[body(3.0), body(1.0)], &[joint]).expect("a model");
     let model = model

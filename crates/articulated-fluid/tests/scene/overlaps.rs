@@ -1,6 +1,6 @@
 //! The depth of overlaps against spheres, where it is exact, and against planes that separate the bodies.
 
-use articulated_fluid::scene::{Overlaps, SceneBody, SceneJoint};
+use articulated_fluid::scene::{Mobility, Overlaps, SceneBody, SceneJoint};
 use articulated_fluid::{Ellipsoid, Scene};
 use lie::{SO3, Vec3};
 use proptest::prelude::*;
@@ -205,11 +205,12 @@ fn star(count: usize, axes: [f64; 3]) -> Scene {
         ..SceneBody::ellipsoid(&format!("b{i}"), &shape, 1.0, 1.0)
     };
     let joint = |child| SceneJoint {
+        name: format!("b{child}"),
         parent: 0,
         child,
         at_parent: [0.0; 3],
         at_child: [-axes[0], 0.0, 0.0],
-        stiffness: 0.0,
+        mobility: Mobility::default(),
     };
     Scene {
         bodies: (0..count as i32).map(body).collect(),

@@ -82,7 +82,7 @@ fn is_finite(scene: &Scene) -> bool {
     let points = points.flat_map(|joint| joint.at_parent.iter().chain(&joint.at_child));
     let velocity = match scene.velocity {
         StartVelocity::Given(velocity) => velocity,
-        StartVelocity::ZeroMomentum => [0.0; 3],
+        StartVelocity::ZeroMomentum | StartVelocity::NoMomentum => [0.0; 3],
     };
     let start = scene.position.iter().chain(&velocity).chain(&scene.gravity);
     let stiffnesses = scene.joints.iter().map(|joint| &joint.mobility.stiffness);

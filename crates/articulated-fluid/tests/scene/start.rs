@@ -154,7 +154,7 @@ fn rates_that_do_not_fit_are_refused() {
 fn the_velocity_may_be_that_of_no_momentum() {
     let scene = parse(TURNED);
     assert_eq!(scene.velocity, StartVelocity::ZeroMomentum);
-    let (_, momentum) = scene.initial_state().expect("a state").mu;
+    let (_, momentum, _) = scene.initial_state().expect("a state").mu;
     assert!(momentum[0].vec3().norm() < 1e-13, "{momentum:?}");
     assert_refused(&[(
         "velocity = [0.5, 0, -1]",

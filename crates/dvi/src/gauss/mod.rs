@@ -247,6 +247,9 @@ impl<C: ContinuousSystem + 'static> FirstVariation for Gauss<C> {
         variations: &mut [Variation<C::Group>],
         h: f64,
     ) -> Result<StepReport, StepError> {
+        if state.mu.dim() == 0 {
+            return self.pass(state, h);
+        }
         let report = self.solve(state, h)?;
         let mut carried = variations.to_vec();
         if let Some(work) = &mut self.work {

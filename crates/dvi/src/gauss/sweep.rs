@@ -611,13 +611,20 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
             self.rates_at(system, t, &moved);
             self.xi.get(0, i)
         };
+        let driven = self.driven;
         let inertia = |kind: usize, i: usize| {
-            let size = if sizes[kind] == 0.0 {
-                SMALL
-            } else {
-                SMALL * sizes[kind]
+            // The momentum of a driven system may be rounding, of which the velocity does not tell.
+            let mut size = match sizes[kind] == 0.0 || driven {
+                true => SMALL,
+                false => SMALL * sizes[kind],
             };
-            size / (velocity(size, i) - velocity(0.0, i)).abs()
+            let rest = velocity(0.0, i);
+            let mut change = (velocity(size, i) - rest).abs();
+            if driven && change < SMALL * rest.abs() {
+                size *= rest.abs() / change.max(f64::EPSILON * rest.abs());
+                change = (velocity(size, i) - rest).abs();
+            }
+            size / change
         };
         self.weights = Weights::new(&kinds, inertia);
     }

@@ -52,6 +52,8 @@ const BESIDE: f64 = 4.0 * f64::EPSILON;
 pub(crate) struct Weights {
     pub(crate) velocities: Factors,
     pub(crate) momenta: Factors,
+    /// The inertia of the first kind.
+    inertia: f64,
 }
 
 /// A factor for each kind; powers of two, which follow the units exactly.
@@ -83,12 +85,13 @@ impl Weights {
         Some(Self {
             velocities: Factors(halves().map(power_of_two).collect()),
             momenta: Factors(halves().map(|half| power_of_two(-half)).collect()),
+            inertia: power_of_two(first),
         })
     }
 
     /// The momentum of a kind that velocities of these sizes, one for each kind, may have.
     pub(crate) fn momentum_of(&self, velocities: impl Iterator<Item = f64>, kind: usize) -> f64 {
-        self.velocities.largest(velocities) / self.momenta.of(kind)
+        self.inertia * self.velocities.largest(velocities) / self.momenta.of(kind)
     }
 }
 

@@ -47,10 +47,13 @@ fn the_columns_are_the_frames_to_the_last_digit() {
         assert_eq!(three(["px", "py", "pz"]), frame.sample.linear.0);
         assert_eq!(three(["lx", "ly", "lz"]), frame.sample.angular.0);
         assert_eq!(at("orthogonality"), frame.sample.orthogonality);
-        let bodies = scene
-            .bodies
-            .iter()
-            .zip(frame.attitudes().iter().zip(frame.rates()));
+        let bodies = scene.bodies.iter().zip(
+            frame
+                .bodies
+                .attitudes
+                .iter()
+                .zip(frame.bodies.rates.iter().copied()),
+        );
         for ((body, (attitude, rate)), last) in bodies.zip(&mut last) {
             let of = |column: &str| at(&format!("{}.{column}", body.name));
             assert_eq!(["wx", "wy", "wz"].map(of), rate.0);
@@ -61,11 +64,13 @@ fn the_columns_are_the_frames_to_the_last_digit() {
             *last = found;
         }
     }
-    assert!(
-        frames
+    assert!(frames.iter().any(|frame| {
+        frame
+            .bodies
+            .attitudes
             .iter()
-            .any(|frame| frame.attitudes().iter().any(|r| r.to_quaternion()[0] < 0.1))
-    );
+            .any(|r| r.to_quaternion()[0] < 0.1)
+    }));
 }
 
 #[test]

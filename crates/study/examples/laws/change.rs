@@ -57,7 +57,7 @@ impl Units {
 fn velocity(scene: &Scene, change: impl Fn(Vec3) -> Vec3) -> StartVelocity {
     match scene.velocity {
         StartVelocity::Given(v) => StartVelocity::Given(change(Vec3(v)).0),
-        StartVelocity::ZeroMomentum => StartVelocity::ZeroMomentum,
+        floats => floats,
     }
 }
 
