@@ -1,6 +1,6 @@
 //! Dual numbers along the basis of a vector space, in chunks.
 
-use lie::{Jet, VectorSpace};
+use lie::{Jet, Lu, VectorSpace};
 use num_traits::Zero;
 
 /// Calls `body` with the first direction of every chunk.
@@ -21,6 +21,30 @@ pub(crate) fn read_partials<V: VectorSpace>(
     let poison = value.value() * V::Scalar::zero();
     for i in first..end {
         out.set(i, value.partial(i - first) + poison);
+    }
+}
+
+/// Sets the columns of a chunk by their rows and directions.
+#[inline(always)]
+pub(crate) fn set_columns(
+    matrix: &mut Lu<f64>,
+    first: usize,
+    entry: impl Fn(usize, usize) -> f64,
+) {
+    let end = matrix.dim().min(first + lie::JET_DIRECTIONS);
+    for column in first..end {
+        for (row, x) in matrix.column_mut(column).iter_mut().enumerate() {
+            *x = entry(row, column - first);
+        }
+    }
+}
+
+/// `x`, the variable of its own direction where the chunk from `first` on holds its index.
+#[inline(always)]
+pub(crate) fn seeded<J: Jet>(x: J::Value, index: usize, first: usize) -> J {
+    match index.checked_sub(first) {
+        Some(direction) if direction < lie::JET_DIRECTIONS => J::variable(x, direction),
+        _ => J::constant(x),
     }
 }
 

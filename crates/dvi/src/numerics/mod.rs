@@ -2,7 +2,5 @@
 
 pub(crate) mod degenerate;
 pub(crate) mod duals;
-pub(crate) mod elimination;
-pub(crate) mod linear;
 pub(crate) mod numbers;
 pub(crate) mod sizes;
