@@ -141,7 +141,9 @@ mod tests {
     fn matrix(rows: [[f64; 3]; 3]) -> Lu<f64> {
         let mut matrix = Lu::new(3);
         for j in 0..3 {
-            matrix.column_mut(j).copy_from_slice(&rows.map(|row| row[j]));
+            matrix
+                .column_mut(j)
+                .copy_from_slice(&rows.map(|row| row[j]));
         }
         matrix
     }

@@ -60,7 +60,11 @@ mod tests {
     fn found<const N: usize>(short: [[f64; N]; N], long: [[f64; N]; N]) -> Option<usize> {
         let [short, long] = [short, long].map(|rows| {
             let mut matrix = Lu::new(N);
-            (0..N).for_each(|j| matrix.column_mut(j).copy_from_slice(&rows.map(|row| row[j])));
+            (0..N).for_each(|j| {
+                matrix
+                    .column_mut(j)
+                    .copy_from_slice(&rows.map(|row| row[j]))
+            });
             matrix
         });
         without_inertia(&short, &long)

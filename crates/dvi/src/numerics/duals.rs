@@ -26,11 +26,7 @@ pub(crate) fn read_partials<V: VectorSpace>(
 
 /// Sets the columns of a chunk by their rows and directions.
 #[inline(always)]
-pub(crate) fn set_columns(
-    matrix: &mut Lu<f64>,
-    first: usize,
-    entry: impl Fn(usize, usize) -> f64,
-) {
+pub(crate) fn set_columns(matrix: &mut Lu<f64>, first: usize, entry: impl Fn(usize, usize) -> f64) {
     let end = matrix.dim().min(first + lie::JET_DIRECTIONS);
     for column in first..end {
         for (row, x) in matrix.column_mut(column).iter_mut().enumerate() {

@@ -2,9 +2,7 @@
 
 use core::ops::Range;
 
-use lie::{
-    AlgebraOver, Cayley, DualOver, Jet, LieGroup, Lu, Over, RealGroup, Scalar, VectorSpace,
-};
+use lie::{AlgebraOver, Cayley, DualOver, Jet, LieGroup, Lu, Over, RealGroup, Scalar, VectorSpace};
 
 use super::balance::Balance;
 use crate::numerics::degenerate::without_inertia;
