@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use dvi::{Context, Derivatives, DiscreteLagrangian, State};
+use dvi::{Context, Derivatives, DiscreteLagrangian, State, Still};
 use lie::{Ldl3, Mat3, SO3, Scalar, Vec3};
 use smallvec::SmallVec;
 
@@ -187,7 +187,7 @@ impl DiscreteLagrangian for ArticulatedBody {
         self.collect(g, f, h, &mut work.moved, out);
     }
 
-    fn is_defined(&self, _: f64, _: &Configuration) -> bool {
+    fn is_defined(&self, _: f64, _: &Configuration, _: &Still<Configuration>) -> bool {
         true
     }
 

@@ -56,6 +56,11 @@ impl<S: Scalar> Lu<S> {
         &mut self.entries[j * self.n..][..self.n]
     }
 
+    /// The columns from `first` on.
+    pub fn columns_mut(&mut self, first: usize) -> impl Iterator<Item = &mut [S]> {
+        self.entries[first * self.n..].chunks_exact_mut(self.n.max(1))
+    }
+
     /// Factorises the matrix, with the largest pivots relative to the unit of each row.
     ///
     /// `unit` is called with a row's index and its entry on the diagonal; zero counts as one. Rows of different units are exchanged as
@@ -107,7 +112,7 @@ impl<S: Scalar> Lu<S> {
 
     /// Replaces `x` by the solution with it as the right-hand side; `lift` takes an entry to the scalar of `x`.
     pub fn solve<T: Scalar>(&self, x: &mut [T], lift: impl Fn(S) -> T) {
-        let n = self.n;
+        let n = self.n.max(1);
         for (k, row) in self.exchanges.iter().enumerate() {
             x.swap(k, *row);
         }

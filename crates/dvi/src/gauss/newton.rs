@@ -1,10 +1,11 @@
 //! Newton's method on the sweep, for steps too long for its iteration; and the derivative of a solved step.
 
-use lie::{Batch, Jet, LieGroup, Lu, Retraction, Scalar, VectorSpace};
+use lie::{Batch, Jet, LieGroup, Retraction, Scalar, VectorSpace};
 
 use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
 use crate::numerics::duals::{add_constant, for_each_chunk, lift, seeded, set_columns};
+use crate::numerics::large::Large;
 use crate::numerics::sizes::{Kinds, Weights};
 use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
@@ -14,7 +15,7 @@ type J = <f64 as Scalar>::Jet;
 /// The unknowns of a step, $X = (\dot c_1, \dot\pi_1, \dots, \dot c_s, \dot\pi_s, P)$, as the fixed point of the sweep:
 /// $X = \Phi(X; g, \mu)$. Holds $1 - \Phi'$, from dual numbers.
 pub(super) struct SweepNewton<C: ContinuousSystem> {
-    matrix: Lu<f64>,
+    matrix: Large,
     /// The step size of the matrix; zero where there is none.
     h: f64,
     /// The iterate.
@@ -46,7 +47,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         let dim = Self::unknowns(tableau, kind_of.len());
         let varied = Varied::new(g);
         Self {
-            matrix: Lu::new(dim),
+            matrix: Large::new(dim),
             h: 0.0,
             x: vec![0.0; dim],
             correction: vec![0.0; dim],
@@ -101,7 +102,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
                 *unknown = seeded(*x, i, first);
             }
             self.map::<R>(system, state.t, h);
-            set_columns(&mut self.matrix, first, |row, direction| {
+            set_columns(self.matrix.columns_mut(first), |row, direction| {
                 let unit = f64::from(u8::from(row == first + direction));
                 unit - self.unknowns[row].partial(direction)
             });
@@ -137,7 +138,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
                 .for_each(|sizes| weights.momenta.fill(sizes));
         }
         let size = |i: usize| sizes[which(i / dim)][kind_of[i % dim]];
-        matrix.factorise(|i, _| size(i));
+        matrix.factorise(size);
     }
 
     /// Whether the branch of solutions from $h = 0$, where the matrix is the identity, has turned before the iterate: its matrix is singular
@@ -149,9 +150,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         h: f64,
     ) -> bool {
         self.renew::<R>(system, state, h);
-        let exchanges = self.matrix.exchanges().iter().enumerate();
-        let exchanged = exchanges.filter(|(k, row)| k != *row).count();
-        (self.matrix.negative_pivots() + exchanged) % 2 == 1
+        self.matrix.turns_over()
     }
 
     fn set_state(&mut self, system: &C, state: &State<C::Group>) {
@@ -185,7 +184,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
 
     /// Solves $(1 - \Phi') \delta = $ `correction`, in place.
     fn solve(&mut self) {
-        self.matrix.solve(&mut self.correction, |entry| entry);
+        self.matrix.solve(&mut self.correction);
     }
 
     /// Carries variations of `state` over a solved step, by the implicit-function rule.

@@ -1,6 +1,6 @@
 //! Dual numbers along the basis of a vector space, in chunks.
 
-use lie::{Jet, Lu, VectorSpace};
+use lie::{Jet, VectorSpace};
 use num_traits::Zero;
 
 /// Calls `body` with the first direction of every chunk.
@@ -26,11 +26,13 @@ pub(crate) fn read_partials<V: VectorSpace>(
 
 /// Sets the columns of a chunk by their rows and directions.
 #[inline(always)]
-pub(crate) fn set_columns(matrix: &mut Lu<f64>, first: usize, entry: impl Fn(usize, usize) -> f64) {
-    let end = matrix.dim().min(first + lie::JET_DIRECTIONS);
-    for column in first..end {
-        for (row, x) in matrix.column_mut(column).iter_mut().enumerate() {
-            *x = entry(row, column - first);
+pub(crate) fn set_columns<'a>(
+    columns: impl Iterator<Item = &'a mut [f64]>,
+    entry: impl Fn(usize, usize) -> f64,
+) {
+    for (direction, column) in columns.take(lie::JET_DIRECTIONS).enumerate() {
+        for (row, x) in column.iter_mut().enumerate() {
+            *x = entry(row, direction);
         }
     }
 }

@@ -2,5 +2,6 @@
 
 pub(crate) mod degenerate;
 pub(crate) mod duals;
+pub(crate) mod large;
 pub(crate) mod numbers;
 pub(crate) mod sizes;

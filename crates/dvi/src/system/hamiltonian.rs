@@ -6,7 +6,7 @@ use super::context::{Adapter, Context, System};
 use super::continuous::ContinuousSystem;
 use super::lagrangian::{HamiltonianSystem, Lagrangian, is_defined};
 use super::lifted::Lifted;
-use super::state::State;
+use super::state::{State, Still};
 use crate::numerics::degenerate::without_inertia;
 use crate::numerics::duals::{add_constant, for_each_chunk, lift, read_partials, seeded};
 use crate::numerics::numbers::{larger, relative};
@@ -315,7 +315,7 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     }
 
     fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        is_defined(&self.0, t, g)
+        is_defined(&self.0, t, g, &Still::at(g))
     }
 
     fn without_inertia(&self, t: f64, g: &L::Group) -> Option<usize> {

@@ -52,7 +52,7 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
         self.g.zero_algebra()
     }
 
-    pub(crate) fn set(&mut self, at: Context<S>, (g, f): (&Over<G, S>, &Over<G, S>), h: S) {
+    pub(crate) fn set(&mut self, (at, (g, f), h): (Context<S>, (&Over<G, S>, &Over<G, S>), S)) {
         self.set_g(at, g);
         self.h = Jet::constant(h);
         G::convert_into::<S, S::Jet>(f, Jet::constant, &mut self.f);

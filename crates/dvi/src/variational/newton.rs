@@ -121,7 +121,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
             self.balance.retract(&self.c);
             self.balance.evaluate(lagrangian, t, &self.g, &self.mu, h);
             let residual = &self.balance.residual;
-            set_columns(&mut self.matrix, first, |row, direction| {
+            set_columns(self.matrix.columns_mut(first), |row, direction| {
                 residual.get(row).partial(direction)
             });
         });
@@ -232,7 +232,7 @@ fn inertia<L: DiscreteLagrangian>(lagrangian: &L, state: &State<L::Group>, h: f6
         lie::seed(&mut c, first);
         Over::<L::Group, J>::retract_into::<Cayley>(&c, &mut f);
         lagrangian.derivatives(at, &g, &f, step, &mut work, &mut derivatives);
-        set_columns(&mut inertia, first, |row, direction| {
+        set_columns(inertia.columns_mut(first), |row, direction| {
             h * derivatives.d_f.get(row).partial(direction)
         });
     });

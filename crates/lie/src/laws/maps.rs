@@ -3,7 +3,7 @@
 use super::checker::{Report, log_of, size, tolerance};
 use super::examples::Examples;
 use super::group::other_than;
-use super::linear::{at_most, length, scaled, vector_size, zero};
+use super::linear::{at_most, generic, length, scaled, vector_size, zero};
 use super::verdict::Outcome;
 use crate::{Cayley, Exp, LieGroup, Retraction, Scalar};
 
@@ -37,6 +37,9 @@ fn square_root<G: LieGroup>(c: &mut Report, g: &G) -> Outcome {
     let (case, scale, root) = (|| format!("g = {g:?}"), size(g).powi(2), g.sqrt());
     let sides = (&root.compose(&root), g);
     c.elements("sqrt(g) sqrt(g) = g", &case, sides, scale)?;
+    let mut out = other_than(&root);
+    g.sqrt_into(&mut out);
+    c.elements("sqrt_into = sqrt", &case, (&out, &root), scale)?;
     let Ok(xi) = g.log() else {
         return Ok(());
     };
@@ -98,5 +101,14 @@ fn in_place<G: LieGroup, R: Retraction>(c: &mut Report, element: &G, xi: &G::Alg
     let mut out = other_than(element);
     G::retract_into::<R>(xi, &mut out);
     let scale = vector_size(xi).powi(2);
-    c.elements("retract_into = tau", &case, (&out, element), scale)
+    c.elements("retract_into = tau", &case, (&out, element), scale)?;
+    let (mut back, inside) = (generic(xi, 9.0), element.retract_inverse::<R>());
+    if element.retract_inverse_into::<R>(&mut back).is_ok() {
+        let formula = "retract_inverse_into = tau^-1";
+        let expected = c.exists(formula, &case, inside)?;
+        // Near a half turn the chart's coordinates grow without bound, and their rounding with them.
+        let scale = vector_size(&expected).powi(2);
+        return c.vectors(formula, &case, (&back, &expected), scale);
+    }
+    Ok(())
 }
