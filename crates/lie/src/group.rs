@@ -436,7 +436,7 @@ pub fn seed<V: VectorSpace<Scalar: Jet>>(zeta: &mut V, first: usize) {
 ///
 /// The default of [`LieGroup::d_left`]; a group that has closed forms for its Cayley map alone calls it for the exponential.
 pub fn dexp<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
-    polynomial::<G>(xi, eta, &exponential())
+    polynomial(eta, &exponential(), |x| G::bracket(xi, x))
 }
 
 /// The gradient in $\xi$ of $\langle \mu, \mathrm d\exp_\xi^{-1} \eta\rangle$: that of
@@ -447,7 +447,8 @@ pub fn dexp<G: LieGroup>(xi: &G::Algebra, eta: &G::Algebra) -> G::Algebra {
 pub fn dexp_inv_gradient<G: LieGroup>(xi: &G::Algebra, mu: &G::Dual, eta: &G::Algebra) -> G::Dual {
     let nu = G::d_left_inv_dual::<Exp>(xi, mu);
     let zeta = G::d_left_inv::<Exp>(xi, eta);
-    let (mut gradient, _) = polynomial_gradient::<G, _>((xi, &nu, &zeta), &exponential());
+    let maps = (G::bracket, G::coadjoint_bracket, G::pair);
+    let (mut gradient, _) = polynomial_gradient((xi, &nu, &zeta), &exponential(), maps);
     gradient.scale(-G::Scalar::one());
     gradient
 }

@@ -2,7 +2,7 @@
 
 use crate::numeric::add_all_compensated;
 use crate::plane::{add, cross, scale, turn};
-use crate::series::{polynomial, polynomial_dual, polynomial_gradient};
+use crate::series::{polynomial, polynomial_gradient};
 use crate::stumpff::{dexp_inv_factor, stumpff, stumpff2};
 use crate::{
     Cayley, Chart, Cotangent, LieGroup, NotUnique, OutsideChart, Over, Retraction, SO2, Scalar,
@@ -91,7 +91,11 @@ impl<S: Scalar> SE2<S> {
         eta: &Tangent<3, S>,
     ) -> Cotangent<3, S> {
         let ([factor, slope], half) = (dexp_inv_factor(xi[0] * xi[0]), S::from_f64(0.5));
-        let (mut gradient, in_a) = polynomial_gradient::<Self, _>((xi, mu, eta), &[half, factor]);
+        let (mut gradient, in_a) = polynomial_gradient(
+            (xi, mu, eta),
+            &[half, factor],
+            (Self::bracket, Self::coadjoint_bracket, Self::pair),
+        );
         gradient[0] += (slope + slope) * xi[0] * in_a[1];
         gradient
     }
@@ -230,7 +234,7 @@ impl<S: Scalar> LieGroup for SE2<S> {
     #[inline(always)]
     fn d_left<R: Retraction>(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
         if R::CHART == Chart::Exp {
-            return polynomial::<Self>(xi, eta, &Self::dexp_coefficients(xi));
+            return polynomial(eta, &Self::dexp_coefficients(xi), |x| Self::bracket(xi, x));
         }
         let ((w, v), (a, u)) = (split(xi.0), split(eta.0));
         let Tangent([angular]) = SO2::d_left::<Cayley>(&Tangent([w]), &Tangent([a]));
@@ -243,7 +247,9 @@ impl<S: Scalar> LieGroup for SE2<S> {
     #[inline(always)]
     fn d_left_inv<R: Retraction>(xi: &Tangent<3, S>, eta: &Tangent<3, S>) -> Tangent<3, S> {
         if R::CHART == Chart::Exp {
-            return polynomial::<Self>(xi, eta, &Self::dexp_inv_coefficients(xi));
+            return polynomial(eta, &Self::dexp_inv_coefficients(xi), |x| {
+                Self::bracket(xi, x)
+            });
         }
         let ((w, v), (a, u)) = (split(xi.0), split(eta.0));
         let Tangent([angular]) = SO2::d_left_inv::<Cayley>(&Tangent([w]), &Tangent([a]));
@@ -256,7 +262,9 @@ impl<S: Scalar> LieGroup for SE2<S> {
     #[inline(always)]
     fn d_left_dual<R: Retraction>(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
         if R::CHART == Chart::Exp {
-            return polynomial_dual::<Self>(xi, mu, &Self::dexp_coefficients(xi));
+            return polynomial(mu, &Self::dexp_coefficients(xi), |x| {
+                Self::coadjoint_bracket(xi, x)
+            });
         }
         let ((w, v), (angular, q)) = (split(xi.0), split(mu.0));
         let (p, x) = (
@@ -271,7 +279,9 @@ impl<S: Scalar> LieGroup for SE2<S> {
     #[inline(always)]
     fn d_left_inv_dual<R: Retraction>(xi: &Tangent<3, S>, mu: &Cotangent<3, S>) -> Cotangent<3, S> {
         if R::CHART == Chart::Exp {
-            return polynomial_dual::<Self>(xi, mu, &Self::dexp_inv_coefficients(xi));
+            return polynomial(mu, &Self::dexp_inv_coefficients(xi), |x| {
+                Self::coadjoint_bracket(xi, x)
+            });
         }
         let ((w, v), (angular, q)) = (split(xi.0), split(mu.0));
         let p = half_turned(-w, q);

@@ -1,7 +1,7 @@
 //! SE(3): rigid displacements of space.
 
 use crate::numeric::add_all_compensated;
-use crate::series::{polynomial, polynomial_dual, polynomial_gradient};
+use crate::series::{polynomial, polynomial_gradient};
 use crate::stumpff::{stumpff, stumpff_next};
 use crate::{
     Cayley, Chart, Cotangent, Exp, LieGroup, NotUnique, OutsideChart, Over, Retraction, SO3,
@@ -110,7 +110,11 @@ impl<S: Scalar> SE3<S> {
         eta: &Tangent<6, S>,
     ) -> Cotangent<6, S> {
         let ((w, _), b) = (xi.split(), Self::dexp_inv_coefficients(xi));
-        let (gradient, in_b) = polynomial_gradient::<Self, _>((xi, mu, eta), &b);
+        let (gradient, in_b) = polynomial_gradient(
+            (xi, mu, eta),
+            &b,
+            (Self::bracket, Self::coadjoint_bracket, Self::pair),
+        );
         let x = w.norm_squared();
         let along = Self::dexp_inv_slope(x, b[3]) * (x * in_b[1] + in_b[3]);
         gradient + (w * (along + along), Vec3::zero()).into()
@@ -240,7 +244,7 @@ impl<S: Scalar> LieGroup for SE3<S> {
     #[inline(always)]
     fn d_left<R: Retraction>(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
         if R::CHART == Chart::Exp {
-            return polynomial::<Self>(xi, eta, &Self::dexp_coefficients(xi));
+            return polynomial(eta, &Self::dexp_coefficients(xi), |x| Self::bracket(xi, x));
         }
         let ((w, v), (eta, u)) = (xi.split(), eta.split());
         let moved = u + eta.cross(Self::cayley_translation(w, v)) * S::from_f64(0.5);
@@ -251,7 +255,9 @@ impl<S: Scalar> LieGroup for SE3<S> {
     #[inline(always)]
     fn d_left_inv<R: Retraction>(xi: &Tangent<6, S>, eta: &Tangent<6, S>) -> Tangent<6, S> {
         if R::CHART == Chart::Exp {
-            return polynomial::<Self>(xi, eta, &Self::dexp_inv_coefficients(xi));
+            return polynomial(eta, &Self::dexp_inv_coefficients(xi), |x| {
+                Self::bracket(xi, x)
+            });
         }
         let ((w, v), (omega, u)) = (xi.split(), eta.split());
         let half = S::from_f64(0.5);
@@ -265,7 +271,9 @@ impl<S: Scalar> LieGroup for SE3<S> {
     #[inline(always)]
     fn d_left_dual<R: Retraction>(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
         if R::CHART == Chart::Exp {
-            return polynomial_dual::<Self>(xi, mu, &Self::dexp_coefficients(xi));
+            return polynomial(mu, &Self::dexp_coefficients(xi), |x| {
+                Self::coadjoint_bracket(xi, x)
+            });
         }
         let ((w, v), (angular, q)) = (xi.split(), mu.split());
         let (p, x) = (
@@ -280,7 +288,9 @@ impl<S: Scalar> LieGroup for SE3<S> {
     #[inline(always)]
     fn d_left_inv_dual<R: Retraction>(xi: &Tangent<6, S>, mu: &Cotangent<6, S>) -> Cotangent<6, S> {
         if R::CHART == Chart::Exp {
-            return polynomial_dual::<Self>(xi, mu, &Self::dexp_inv_coefficients(xi));
+            return polynomial(mu, &Self::dexp_inv_coefficients(xi), |x| {
+                Self::coadjoint_bracket(xi, x)
+            });
         }
         let ((w, v), (angular, q)) = (xi.split(), mu.split());
         let half = S::from_f64(0.5);

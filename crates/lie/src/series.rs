@@ -4,7 +4,7 @@ use core::array::from_fn;
 
 use num_traits::One;
 
-use crate::{LieGroup, Scalar, VectorSpace};
+use crate::{Scalar, VectorSpace};
 
 /// Terms of the series of $\mathrm d\exp$: $(2\pi)^{40}/41! < 10^{-17}$.
 const TERMS: usize = 39;
@@ -18,29 +18,10 @@ pub(crate) fn exponential<S: Scalar>() -> [S; TERMS] {
     })
 }
 
-/// $\eta + \sum_{k \ge 1} a_k \mathrm{ad}_\xi^k \eta$.
+/// $\eta + \sum_{k \ge 1} a_k \mathrm{ad}_\xi^k \eta$ of the map $\mathrm{ad}_\xi$; with $\mathrm{ad}_\xi^\ast$, the transpose of that.
 #[inline(always)]
-pub(crate) fn polynomial<G: LieGroup>(
-    xi: &G::Algebra,
-    eta: &G::Algebra,
-    a: &[G::Scalar],
-) -> G::Algebra {
-    sum(eta, a, |x| G::bracket(xi, x))
-}
-
-/// The transpose of that, $\mu + \sum_{k \ge 1} a_k (\mathrm{ad}^\ast_\xi)^k \mu$.
-#[inline(always)]
-pub(crate) fn polynomial_dual<G: LieGroup>(
-    xi: &G::Algebra,
-    mu: &G::Dual,
-    a: &[G::Scalar],
-) -> G::Dual {
-    sum(mu, a, |x| G::coadjoint_bracket(xi, x))
-}
-
-#[inline(always)]
-fn sum<V: VectorSpace>(x: &V, a: &[V::Scalar], ad: impl Fn(&V) -> V) -> V {
-    let (mut sum, mut term) = (x.clone(), x.clone());
+pub(crate) fn polynomial<V: VectorSpace>(eta: &V, a: &[V::Scalar], ad: impl Fn(&V) -> V) -> V {
+    let (mut sum, mut term) = (eta.clone(), eta.clone());
     for a in a {
         term = ad(&term);
         sum.add_scaled(*a, &term);
@@ -53,23 +34,32 @@ fn sum<V: VectorSpace>(x: &V, a: &[V::Scalar], ad: impl Fn(&V) -> V) -> V {
 ///
 /// Backwards through the terms $t_k = \mathrm{ad}_\xi t_{k-1}$: the sum is $\langle \lambda_k, t_k\rangle$ plus terms before
 /// $t_k$, with $\lambda_k = a_k \mu + \mathrm{ad}^\ast_\xi \lambda_{k+1}$. Each $t_k$ adds
-/// $-\mathrm{ad}^\ast_{t_{k-1}} \lambda_k$ to the gradient.
+/// $-\mathrm{ad}^\ast_{t_{k-1}} \lambda_k$ to the gradient. The maps are the bracket, its dual and the pairing.
 #[inline(always)]
-pub(crate) fn polynomial_gradient<G: LieGroup, const K: usize>(
-    (xi, mu, eta): (&G::Algebra, &G::Dual, &G::Algebra),
-    a: &[G::Scalar; K],
-) -> (G::Dual, [G::Scalar; K]) {
-    let (mut term, mut in_a) = (eta.clone(), [G::Scalar::from_f64(0.0); K]);
+pub(crate) fn polynomial_gradient<
+    A: VectorSpace,
+    D: VectorSpace<Scalar = A::Scalar>,
+    const K: usize,
+>(
+    (xi, mu, eta): (&A, &D, &A),
+    a: &[A::Scalar; K],
+    (ad, coad, pair): (
+        impl Fn(&A, &A) -> A,
+        impl Fn(&A, &D) -> D,
+        impl Fn(&D, &A) -> A::Scalar,
+    ),
+) -> (D, [A::Scalar; K]) {
+    let (mut term, mut in_a) = (eta.clone(), [A::Scalar::from_f64(0.0); K]);
     let before: [_; K] = from_fn(|k| {
-        let next = G::bracket(xi, &term);
-        in_a[k] = G::pair(mu, &next);
+        let next = ad(xi, &term);
+        in_a[k] = pair(mu, &next);
         core::mem::replace(&mut term, next)
     });
     let (mut in_xi, mut lambda) = (mu.zero_like(), mu.zero_like());
     for (a, before) in a.iter().zip(&before).rev() {
-        lambda = G::coadjoint_bracket(xi, &lambda);
+        lambda = coad(xi, &lambda);
         lambda.add_scaled(*a, mu);
-        in_xi.add_scaled(-G::Scalar::one(), &G::coadjoint_bracket(before, &lambda));
+        in_xi.add_scaled(-A::Scalar::one(), &coad(before, &lambda));
     }
     (in_xi, in_a)
 }
