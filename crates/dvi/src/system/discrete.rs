@@ -6,7 +6,7 @@ use core::ops::Range;
 use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 use super::context::{Context, System};
-use super::lifted::Lifted;
+use super::lifted::{Arguments, Lifted};
 use super::state::{State, Still};
 use crate::numerics::duals::{for_each_chunk, read_partials};
 
@@ -262,7 +262,7 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         f: &Over<G, S>,
         h: S,
     ) {
-        self.by_jets_of((at, (g, f), h), |at, (g, f), h| {
+        self.by_jets_of((at, (g, f), h), |(at, (g, f), h)| {
             lagrangian.value(at, g, f, h)
         });
     }
@@ -271,18 +271,16 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
     #[inline(always)]
     pub(crate) fn by_jets_of(
         &mut self,
-        arguments: (Context<S>, (&Over<G, S>, &Over<G, S>), S),
-        mut value: impl FnMut(Context<S::Jet>, (&Over<G, S::Jet>, &Over<G, S::Jet>), S::Jet) -> S::Jet,
+        arguments: Arguments<'_, G, S>,
+        mut value: impl FnMut(Arguments<'_, G, S::Jet>) -> S::Jet,
     ) {
         let Self { d_f, d_g, lifted } = self;
         let (_, (g, _), _) = arguments;
         let lifted = lifted.get_or_insert_with(|| Lifted::new(g));
         lifted.set(arguments);
         for_each_chunk(d_f.dim(), |first| {
-            let (at, moved, h) = lifted.moving_f(first);
-            read_partials(d_f, first, value(at, moved, h));
-            let (at, moved, h) = lifted.moving_g(first);
-            read_partials(d_g, first, value(at, moved, h));
+            read_partials(d_f, first, value(lifted.moving_f(first)));
+            read_partials(d_g, first, value(lifted.moving_g(first)));
         });
     }
 }

@@ -5,6 +5,7 @@ use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Retraction, Scalar, 
 use super::context::{Adapter, Context, System};
 use super::discrete::{Derivatives, DiscreteLagrangian};
 use super::lagrangian::{Discretised, Lagrangian, is_defined};
+use super::lifted::Arguments;
 use super::quadrature::Place;
 use super::state::Still;
 
@@ -96,9 +97,7 @@ impl<L: Lagrangian, R: Retraction> Discretised<L, R> {
     #[inline(always)]
     fn value_between<S: Scalar>(
         &self,
-        at: Context<S>,
-        (g, f): (&Over<L::Group, S>, &Over<L::Group, S>),
-        h: S,
+        (at, (g, f), h): Arguments<'_, L::Group, S>,
         between: &mut Between<L::Group, S>,
     ) -> S {
         between.set_velocity::<R>(f, h);
@@ -121,7 +120,7 @@ impl<L: Lagrangian, R: Retraction> DiscreteLagrangian for Discretised<L, R> {
         f: &Over<L::Group, S>,
         h: S,
     ) -> S {
-        self.value_between(at, (g, f), h, &mut Between::new(g))
+        self.value_between((at, (g, f), h), &mut Between::new(g))
     }
 
     fn derivatives<S: Scalar>(
@@ -133,8 +132,9 @@ impl<L: Lagrangian, R: Retraction> DiscreteLagrangian for Discretised<L, R> {
         work: &mut Self::Workspace<S>,
         out: &mut Derivatives<L::Group, S>,
     ) {
-        out.by_jets_of((at, (g, f), h), |at, (g, f), h| {
-            self.value_between(at, (g, f), h, work.for_shape_of(g))
+        out.by_jets_of((at, (g, f), h), |arguments| {
+            let (_, (g, _), _) = arguments;
+            self.value_between(arguments, work.for_shape_of(g))
         });
     }
 
