@@ -1,7 +1,7 @@
 //! The discrete Lagrangian by its value alone.
 
 use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::{Context, DiscreteLagrangian, System};
+use dvi::{Context, DiscreteLagrangian, Still, System};
 use lgvi::{articulated_fluid, dvi, lie};
 use lie::Scalar;
 
@@ -25,7 +25,7 @@ impl DiscreteLagrangian for ValueOnly {
         DiscreteLagrangian::value(&self.0, at, g, f, h)
     }
 
-    fn is_defined(&self, _: f64, _: &Configuration) -> bool {
+    fn is_defined(&self, _: f64, _: &Configuration, _: &Still<Configuration>) -> bool {
         true
     }
 }

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use dvi::{Context, Derivatives, DiscreteLagrangian, State};
+use dvi::{Context, Derivatives, DiscreteLagrangian, State, Still};
 use lie::{Cotangent, Ldl3, Mat3, SO3, Scalar, Tangent, Vec3};
 use smallvec::SmallVec;
 
@@ -233,7 +233,7 @@ impl DiscreteLagrangian for ArticulatedBody {
         self.collect(g, step, shift, &mut work.moved, by_body, out);
     }
 
-    fn is_defined(&self, t: f64, _: &Configuration) -> bool {
+    fn is_defined(&self, t: f64, _: &Configuration, _: &Still<Configuration>) -> bool {
         self.knows(t)
     }
 

@@ -69,9 +69,10 @@ pub use pilot::{Pilot, PilotError};
 pub use step::{Cause, Hint, Integrator, StepError, StepReport, check_momentum, check_step};
 pub use system::{
     Adjoint, AdjointWorkspace, Context, ContinuousSystem, Derivatives, DiscreteForce,
-    DiscreteLagrangian, Discretised, Force, Forced, ForcedWorkspace, HamiltonianSystem, Lagrangian,
-    LeftTranslation, LegendreWorkspace, Pair, Quadrature, RightTranslation, ShapeError, State,
-    Symmetry, System, legendre_minus, legendre_plus, momentum_map,
+    DiscreteLagrangian, Discretised, DiscretisedWorkspace, Force, Forced, ForcedWorkspace,
+    HamiltonianSystem, Lagrangian, LeftTranslation, LegendreWorkspace, Pair, Quadrature,
+    RightTranslation, ShapeError, State, Still, Symmetry, System, legendre_minus, legendre_plus,
+    momentum_map,
 };
 pub use variation::{FirstVariation, Variation, symplectic_form};
 pub use variational::Variational;

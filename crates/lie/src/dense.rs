@@ -1,8 +1,8 @@
 //! Generic fall-backs for a group that gives no closed form: transposes by pairing, small solves.
 
-use num_traits::{One, Zero};
+use num_traits::One;
 
-use crate::{Scalar, VectorSpace};
+use crate::{Lu, VectorSpace};
 
 /// The $\nu$ with $\langle \nu, e_i \rangle = \langle \mu, A e_i \rangle$ for the basis $e_i$ of the algebra.
 pub(crate) fn transpose_by_pairing<A: VectorSpace, D: VectorSpace<Scalar = A::Scalar>>(
@@ -18,29 +18,16 @@ pub(crate) fn transpose_by_pairing<A: VectorSpace, D: VectorSpace<Scalar = A::Sc
     nu
 }
 
-/// The $x$ with $A x = b$, by Gauss–Jordan elimination with row pivoting; not finite where $A$ is singular.
+/// The $x$ with $A x = b$; not finite where $A$ is singular.
 pub(crate) fn solve<A: VectorSpace>(b: &A, map: impl Fn(&A) -> A) -> A {
-    let n = b.dim();
-    let columns: Vec<_> = (0..n).map(|j| map(&basis(b, j))).collect();
-    let mut rows: Vec<Vec<A::Scalar>> = (0..n)
-        .map(|i| columns.iter().chain([b]).map(|c| c.get(i)).collect())
-        .collect();
-    for k in 0..n {
-        let size = |row: &Vec<A::Scalar>| row[k].magnitude();
-        let pivot = (k..n).max_by(|&i, &j| size(&rows[i]).total_cmp(&size(&rows[j])));
-        rows.swap(k, pivot.unwrap_or(k));
-        let head: Vec<_> = rows[k].iter().map(|&x| x / rows[k][k]).collect();
-        for (i, row) in rows.iter_mut().enumerate() {
-            let factor = if i == k { A::Scalar::zero() } else { row[k] };
-            for (x, &h) in row.iter_mut().zip(&head) {
-                *x = if i == k { h } else { *x - factor * h };
-            }
-        }
+    let mut matrix = Lu::new(b.dim());
+    for j in 0..b.dim() {
+        map(&basis(b, j)).write(matrix.column_mut(j));
     }
-    let mut x = b.zero_like();
-    for (i, row) in rows.iter().enumerate() {
-        x.set(i, row[n]);
-    }
+    matrix.factorise(|_, _| 1.0);
+    let (mut x, mut numbers) = (b.clone(), b.coordinates());
+    matrix.solve(&mut numbers, |entry| entry);
+    x.read(&numbers);
     x
 }
 

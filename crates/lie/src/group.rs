@@ -290,6 +290,25 @@ pub trait LieGroup: Clone + Debug + PartialEq + Send + Sync + 'static {
         *out = Self::retract::<R>(xi);
     }
 
+    /// [`retract_inverse`](Self::retract_inverse) into `out`; where there is none, `out` is not to be used.
+    ///
+    /// # Errors
+    /// As [`retract_inverse`](Self::retract_inverse).
+    #[inline(always)]
+    fn retract_inverse_into<R: Retraction>(
+        &self,
+        out: &mut Self::Algebra,
+    ) -> Result<(), OutsideChart> {
+        *out = self.retract_inverse::<R>()?;
+        Ok(())
+    }
+
+    /// [`sqrt`](Self::sqrt) into `out`.
+    #[inline(always)]
+    fn sqrt_into(&self, out: &mut Self) {
+        *out = self.sqrt();
+    }
+
     /// [`coadjoint`](Self::coadjoint) into `out`.
     #[inline(always)]
     fn coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {

@@ -233,6 +233,15 @@ macro_rules! group_by_factor {
             $each!(xi | out; $($i => $G::retract_into::<R>(&at!(xi, $i), &mut at!(out, $i))),+);
         }
         #[inline(always)]
+        fn retract_inverse_into<R: Retraction>(&self, out: &mut Self::Algebra) -> Result<(), OutsideChart> {
+            $each!(self | out; $($i => at!(self, $i).retract_inverse_into::<R>(&mut at!(out, $i))?),+);
+            Ok(())
+        }
+        #[inline(always)]
+        fn sqrt_into(&self, out: &mut Self) {
+            $each!(self | out; $($i => at!(self, $i).sqrt_into(&mut at!(out, $i))),+);
+        }
+        #[inline(always)]
         fn coadjoint_into(&self, mu: &Self::Dual, out: &mut Self::Dual) {
             $each!(self, mu | out; $($i => at!(self, $i).coadjoint_into(&at!(mu, $i), &mut at!(out, $i))),+);
         }

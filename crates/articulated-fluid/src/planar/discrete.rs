@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use dvi::{Context, Derivatives, DiscreteLagrangian, State};
+use dvi::{Context, Derivatives, DiscreteLagrangian, State, Still};
 use lie::{SO2, Scalar};
 use smallvec::SmallVec;
 
@@ -199,7 +199,7 @@ impl DiscreteLagrangian for PlanarBody {
         self.collect(g, f, h, &mut work.moved, out);
     }
 
-    fn is_defined(&self, _: f64, _: &PlanarConfiguration) -> bool {
+    fn is_defined(&self, _: f64, _: &PlanarConfiguration, _: &Still<PlanarConfiguration>) -> bool {
         true
     }
 

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use dvi::{Context, Derivatives, DiscreteLagrangian, System};
+use dvi::{Context, Derivatives, DiscreteLagrangian, Still, System};
 use lie::{Over, Scalar};
 
 /// The same discrete Lagrangian without the model's inertia: its steps are solved with Newton's matrix from dual numbers.
@@ -52,8 +52,8 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for ByDuals<L> {
     ) {
         self.0.derivatives(at, g, f, h, work, out);
     }
-    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        self.0.is_defined(t, g)
+    fn is_defined(&self, t: f64, g: &L::Group, still: &Still<L::Group>) -> bool {
+        self.0.is_defined(t, g, still)
     }
     fn order(&self) -> u32 {
         self.0.order()

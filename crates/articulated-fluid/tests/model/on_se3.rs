@@ -3,7 +3,7 @@
 use core::iter::once;
 
 use articulated_fluid::{ArticulatedBody, Configuration};
-use dvi::{Context, DiscreteLagrangian, State, System};
+use dvi::{Context, DiscreteLagrangian, State, Still, System};
 use lie::{Power, R3, SE3, SO3, Scalar, Vec3};
 
 /// The semidirect configuration $((R_0, x), R_1, \dots, R_n)$.
@@ -52,7 +52,12 @@ impl DiscreteLagrangian for OnSe3 {
         DiscreteLagrangian::value(&self.0, at, &g, &f, h)
     }
 
-    fn is_defined(&self, _: f64, _: &SemidirectConfiguration) -> bool {
+    fn is_defined(
+        &self,
+        _: f64,
+        _: &SemidirectConfiguration,
+        _: &Still<SemidirectConfiguration>,
+    ) -> bool {
         true
     }
 }

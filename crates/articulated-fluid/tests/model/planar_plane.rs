@@ -8,7 +8,7 @@ use dvi::{
 use lie::{LieGroup, Mat3, Power, SO3, Tangent, Vec3, VectorSpace};
 use proptest::prelude::*;
 
-use crate::common::{Velocity, alone, none, assert_close};
+use crate::common::{Velocity, alone, assert_close, none};
 use crate::flat_trees::*;
 
 /// How far one thing is tilted out of the plane.

@@ -4,8 +4,8 @@ use lie::{Batch, Jet, LieGroup, Retraction, Scalar, VectorSpace};
 
 use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
-use crate::numerics::duals::{add_constant, for_each_chunk, lift};
-use crate::numerics::linear::Factorisation;
+use crate::numerics::duals::{add_constant, for_each_chunk, lift, seeded, set_columns};
+use crate::numerics::large::Large;
 use crate::numerics::sizes::{Kinds, Weights};
 use crate::variation::Varied;
 use crate::{ContinuousSystem, State, Variation};
@@ -15,7 +15,7 @@ type J = <f64 as Scalar>::Jet;
 /// The unknowns of a step, $X = (\dot c_1, \dot\pi_1, \dots, \dot c_s, \dot\pi_s, P)$, as the fixed point of the sweep:
 /// $X = \Phi(X; g, \mu)$. Holds $1 - \Phi'$, from dual numbers.
 pub(super) struct SweepNewton<C: ContinuousSystem> {
-    matrix: Factorisation,
+    matrix: Large,
     /// The step size of the matrix; zero where there is none.
     h: f64,
     /// The iterate.
@@ -47,7 +47,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         let dim = Self::unknowns(tableau, kind_of.len());
         let varied = Varied::new(g);
         Self {
-            matrix: Factorisation::new(dim),
+            matrix: Large::new(dim),
             h: 0.0,
             x: vec![0.0; dim],
             correction: vec![0.0; dim],
@@ -99,20 +99,13 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         let dim = self.x.len();
         for_each_chunk(dim, |first| {
             for (i, (unknown, x)) in self.unknowns.iter_mut().zip(&self.x).enumerate() {
-                *unknown = match i.checked_sub(first) {
-                    Some(d) if d < lie::JET_DIRECTIONS => J::variable(*x, d),
-                    _ => J::constant(*x),
-                };
+                *unknown = seeded(*x, i, first);
             }
             self.map::<R>(system, state.t, h);
-            let last = dim.min(first + lie::JET_DIRECTIONS);
-            for column in first..last {
-                for (row, image) in self.unknowns.iter().enumerate() {
-                    let unit = f64::from(u8::from(row == column));
-                    let slope = image.partial(column - first);
-                    self.matrix.set(row, column, unit - slope);
-                }
-            }
+            set_columns(self.matrix.columns_mut(first), |row, direction| {
+                let unit = f64::from(u8::from(row == first + direction));
+                unit - self.unknowns[row].partial(direction)
+            });
         });
         self.factorise();
         self.h = h;
@@ -145,7 +138,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
                 .for_each(|sizes| weights.momenta.fill(sizes));
         }
         let size = |i: usize| sizes[which(i / dim)][kind_of[i % dim]];
-        matrix.factorise_map((0..x.len()).map(size));
+        matrix.factorise(size);
     }
 
     /// Whether the branch of solutions from $h = 0$, where the matrix is the identity, has turned before the iterate: its matrix is singular
@@ -191,10 +184,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
 
     /// Solves $(1 - \Phi') \delta = $ `correction`, in place.
     fn solve(&mut self) {
-        self.matrix
-            .right_hand_side()
-            .copy_from_slice(&self.correction);
-        self.correction.copy_from_slice(self.matrix.solve());
+        self.matrix.solve(&mut self.correction);
     }
 
     /// Carries variations of `state` over a solved step, by the implicit-function rule.

@@ -601,7 +601,8 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         if self.weights.is_some() {
             return;
         }
-        self.driven = system.is_driven();
+        let driven = system.is_driven();
+        self.driven = driven;
         let (kinds, mut sizes) = (self.kinds.clone(), vec![0.0; self.kinds.count]);
         kinds.raise(&mut sizes, &mu.coordinates());
         let mut moved = mu.clone();
@@ -611,7 +612,6 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
             self.rates_at(system, t, &moved);
             self.xi.get(0, i)
         };
-        let driven = self.driven;
         let inertia = |kind: usize, i: usize| {
             // The momentum of a driven system may be rounding, of which the velocity does not tell.
             let mut size = match sizes[kind] == 0.0 || driven {

@@ -1,8 +1,9 @@
 //! Whether the coordinates that are declared cyclic are.
 
+use lie::laws::Report;
 use lie::{LieGroup, VectorSpace};
 
-use super::compare::{Checker, ROUNDING, extent};
+use super::compare::{ROUNDING, extent};
 use super::verdict::{LawError, Outcome};
 use crate::{Context, Derivatives, DiscreteLagrangian, State};
 
@@ -20,7 +21,7 @@ pub(super) fn exist<L: DiscreteLagrangian>(lagrangian: &L, g: &L::Group) -> Outc
 
 /// Compares with what does not depend on them, for the displacement `f` and sizes of the terms up to `size`.
 pub(super) fn check<L: DiscreteLagrangian>(
-    c: &mut Checker,
+    c: &mut Report,
     lagrangian: &L,
     (state, f, h): (&State<L::Group>, &L::Group, f64),
     given: &Derivatives<L::Group, f64>,
@@ -34,7 +35,7 @@ pub(super) fn check<L: DiscreteLagrangian>(
         let mut unit = g.zero_algebra();
         unit.set(i, 1.0);
         let formula = "Ad_f e = e along cyclic(), a factor R^m of a direct product";
-        c.vectors(formula, case, (&f.adjoint(&unit), &unit), ROUNDING)?;
+        c.within(formula, &case, (&f.adjoint(&unit), &unit), ROUNDING)?;
         for shift in SHIFTS {
             unit.set(i, shift);
             let moved = g.compose(&L::Group::exp(&unit));
@@ -42,10 +43,10 @@ pub(super) fn check<L: DiscreteLagrangian>(
             let case = || format!("{}, moved by {shift:?}", case());
             let formula = "L_d(g exp(s e), f) = L_d(g, f) along cyclic()";
             let tolerance = ROUNDING * size * extent(&moved);
-            c.number(formula, case, i, (there, here), tolerance)?;
+            c.number(formula, &case, i, (there, here), tolerance)?;
         }
         let formula = "d_g = 0 along cyclic()";
-        c.number(formula, case, i, (given.d_g.get(i), 0.0), ROUNDING * size)?;
+        c.number(formula, &case, i, (given.d_g.get(i), 0.0), ROUNDING * size)?;
     }
     Ok(())
 }

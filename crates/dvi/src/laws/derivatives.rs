@@ -1,11 +1,12 @@
 //! The derivatives of a discrete Lagrangian, and its value against the continuous one.
 
+use lie::laws::Report;
 use lie::{LieGroup, VectorSpace};
 
-use super::compare::{Checker, ROUNDING, extent, on_each};
+use super::compare::{ROUNDING, extent, on_each};
 use super::cyclic;
 use super::displacements::{Displacements, displacements};
-use super::verdict::{LawError, Outcome, Report};
+use super::verdict::{LawError, Outcome};
 use crate::{Context, Derivatives, DiscreteLagrangian, HamiltonianSystem, Lagrangian, State};
 
 /// Half-width of a central difference of order 4, relative to the displacement: $\varepsilon^{1/5}$ balances rounding against truncation.
@@ -16,7 +17,7 @@ const DIFFERENCES: f64 = 30.0;
 const SHRINKING: [f64; 2] = [1e-3, 1e-4];
 
 pub(super) fn check<L: DiscreteLagrangian>(
-    c: &mut Checker,
+    c: &mut Report,
     lagrangian: &L,
     state: &State<L::Group>,
     h: f64,
@@ -33,7 +34,7 @@ pub(super) fn check<L: DiscreteLagrangian>(
 }
 
 fn against_the_value<L: DiscreteLagrangian>(
-    c: &mut Checker,
+    c: &mut Report,
     lagrangian: &L,
     (state, f, h): (&State<L::Group>, &L::Group, f64),
     width: f64,
@@ -50,9 +51,9 @@ fn against_the_value<L: DiscreteLagrangian>(
     cyclic::check(c, lagrangian, (state, f, h), &given, size)?;
     let tolerance = ROUNDING * size;
     let formula = "d_f = T*L_f D_f L_d, by duals";
-    c.vectors(formula, case, (&given.d_f, &duals.d_f), tolerance)?;
+    c.within(formula, &case, (&given.d_f, &duals.d_f), tolerance)?;
     let formula = "d_g = T*L_g D_g L_d, by duals";
-    c.vectors(formula, case, (&given.d_g, &duals.d_g), tolerance)?;
+    c.within(formula, &case, (&given.d_g, &duals.d_g), tolerance)?;
 
     let moved = |g: &L::Group, i: usize, s: f64| {
         let mut eta = g.zero_algebra();
@@ -66,12 +67,12 @@ fn against_the_value<L: DiscreteLagrangian>(
         let (slope, truncation) = difference(width, &along_f);
         let formula = "d_f = T*L_f D_f L_d, by central differences";
         let sides = (given.d_f.get(i), slope);
-        c.number(formula, case, i, sides, rounding(f) + truncation)?;
+        c.number(formula, &case, i, sides, rounding(f) + truncation)?;
         let along_g = |s| lagrangian.value(at, &moved(g, i, s), f, h);
         let (slope, truncation) = difference(width, &along_g);
         let formula = "d_g = T*L_g D_g L_d, by central differences";
         let sides = (given.d_g.get(i), slope);
-        c.number(formula, case, i, sides, rounding(g) + truncation)?;
+        c.number(formula, &case, i, sides, rounding(g) + truncation)?;
     }
     Ok(())
 }
@@ -87,7 +88,7 @@ fn difference(width: f64, value: &dyn Fn(f64) -> f64) -> (f64, f64) {
 }
 
 fn symmetric<L: DiscreteLagrangian>(
-    c: &mut Checker,
+    c: &mut Report,
     lagrangian: &L,
     state: &State<L::Group>,
     f: &L::Group,
@@ -102,7 +103,7 @@ fn symmetric<L: DiscreteLagrangian>(
     derivatives.by_jets(lagrangian, at, g, f, h);
     let size = forth.abs() + derivatives.d_f.max_magnitude();
     let formula = "L_d(t, g, f, h) = -L_d(t + h, g f, f^-1, -h)";
-    c.number(formula, case, 0, (forth, back), ROUNDING * size)
+    Ok(c.number(formula, &case, 0, (forth, back), ROUNDING * size)?)
 }
 
 /// Checks that $L_d(t, g, \exp(h \xi), h) = h L(t, g, \xi) + O(h^2)$: that the value is the right one.
@@ -137,6 +138,6 @@ where
         let tolerance = (far - expected).abs() / 5.0 + ROUNDING * size / SHRINKING[1];
         let case = || format!("{state:?}, xi = {xi:?}, h = {:?}", SHRINKING[1]);
         let formula = "L_d(g, exp(h xi), h) / h = L(g, xi) + O(h)";
-        c.number(formula, case, 0, (near, expected), tolerance)
+        Ok(c.number(formula, &case, 0, (near, expected), tolerance)?)
     })
 }

@@ -2,6 +2,7 @@
 
 use lie::{LieGroup, Over, RealGroup, Scalar, Units, VectorSpace};
 
+use super::compare::logarithm;
 use crate::{Context, DiscreteLagrangian, State, System, Variational};
 
 /// A coordinate that hardly moves is moved by this share of the largest of its kind, so that none is zero.
@@ -80,10 +81,6 @@ fn least(largest: f64, h: f64) -> f64 {
 fn share(i: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
     0.5 + 0.4 * ((i + 1) as f64 * GOLDEN).fract()
-}
-
-fn logarithm<G: RealGroup>(f: &G) -> G::Algebra {
-    f.log().unwrap_or_else(|e| e.representative)
 }
 
 /// A discrete Lagrangian by its value alone: its motion feels no mistake in what else is given.

@@ -54,14 +54,14 @@ mod verdict;
 
 use crate::variational::degenerate;
 use crate::{DiscreteLagrangian, State, Variational};
-use compare::Checker;
 use verdict::examples;
 
 pub use derivatives::check_consistency;
+pub use lie::laws::Report;
 pub use order::{Order, check_order, distance, observed_order};
 pub use steps::{check_reversibility, check_step, check_symplecticity, symplectic_defect};
 pub use symmetry::check_symmetry;
-pub use verdict::{LawError, Report};
+pub use verdict::LawError;
 
 /// Checks a discrete Lagrangian on examples, with steps of size `h`.
 ///
@@ -85,10 +85,10 @@ pub fn check<L: DiscreteLagrangian>(
     h: f64,
 ) -> Result<Report, LawError> {
     examples(states)?;
-    let mut checker = Checker::default();
+    let mut report = Report::default();
     for state in states {
         cyclic::exist(lagrangian, &state.g)?;
-        derivatives::check(&mut checker, lagrangian, state, h)?;
+        derivatives::check(&mut report, lagrangian, state, h)?;
         if degenerate(lagrangian, state, h).is_some() {
             let case = format!("{state:?}");
             return Err(LawError::Degenerate { case });
@@ -96,13 +96,13 @@ pub fn check<L: DiscreteLagrangian>(
     }
     let mut integrator = Variational::new(lagrangian);
     for state in states {
-        steps::legendre(&mut checker, &mut integrator, lagrangian, state, h)?;
+        steps::legendre(&mut report, &mut integrator, lagrangian, state, h)?;
         if lagrangian.is_symplectic() {
-            steps::symplecticity(&mut checker, &mut integrator, state, h)?;
+            steps::symplecticity(&mut report, &mut integrator, state, h)?;
         }
         if lagrangian.is_symmetric() {
-            steps::reversibility(&mut checker, &mut integrator, state, h)?;
+            steps::reversibility(&mut report, &mut integrator, state, h)?;
         }
     }
-    Ok(checker.report())
+    Ok(report)
 }

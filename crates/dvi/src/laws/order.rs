@@ -2,7 +2,8 @@
 
 use lie::{RealGroup, VectorSpace};
 
-use super::steps::difference;
+use super::compare::difference;
+use super::steps::take;
 use super::verdict::LawError;
 use crate::numerics::numbers::larger;
 use crate::{Integrator, State};
@@ -37,10 +38,11 @@ pub fn observed_order<I: Integrator>(
 ) -> Result<Order, LawError> {
     let run = |steps: u32| -> Result<State<I::Group>, LawError> {
         let (mut state, mut integrator) = (start.clone(), integrator());
-        let h = until / f64::from(steps);
-        for _ in 0..steps {
-            integrator.step(&mut state, h)?;
-        }
+        take(
+            &mut integrator,
+            &mut state,
+            (until / f64::from(steps), steps),
+        )?;
         Ok(state)
     };
     let (mut all, mut errors) = (Vec::new(), Vec::new());

@@ -1,13 +1,14 @@
 //! What a step of an integrator must be: solved, symplectic, reversible.
 
-use lie::{LieGroup, RealGroup, VectorSpace};
+use lie::laws::Report;
+use lie::{LieGroup, VectorSpace};
 
-use super::compare::{Checker, ROUNDING, extent, on_each};
+use super::compare::{ROUNDING, difference, extent, on_each};
 use super::displacements::size;
-use super::verdict::{LawError, Outcome, Report};
+use super::verdict::{LawError, Outcome};
 use crate::numerics::numbers::larger;
 use crate::{
-    DiscreteLagrangian, FirstVariation, Integrator, State, Variation, legendre_minus,
+    DiscreteLagrangian, FirstVariation, Integrator, State, StepError, Variation, legendre_minus,
     legendre_plus, symplectic_form,
 };
 
@@ -35,7 +36,7 @@ where
 }
 
 pub(super) fn legendre<I, L>(
-    c: &mut Checker,
+    c: &mut Report,
     integrator: &mut I,
     lagrangian: &L,
     state: &State<L::Group>,
@@ -55,9 +56,9 @@ where
     // The displacement is read off two configurations: their rounding is divided by the step.
     let tolerance = ROUNDING * size + stiffness(lagrangian, state, &f, h) * f64::EPSILON;
     let formula = "F^- L_d (g_k, f_k) = mu_k";
-    c.vectors(formula, case, (&minus, &state.mu), tolerance)?;
+    c.within(formula, &case, (&minus, &state.mu), tolerance)?;
     let formula = "F^+ L_d (g_k, f_k) = mu_(k+1)";
-    c.vectors(formula, case, (&plus, &next.mu), tolerance)
+    Ok(c.within(formula, &case, (&plus, &next.mu), tolerance)?)
 }
 
 /// How the momentum answers to rounding in the displacement, from the sizes of its coordinates.
@@ -114,7 +115,7 @@ pub fn check_symplecticity<I: FirstVariation>(
 }
 
 pub(super) fn symplecticity<I: FirstVariation>(
-    c: &mut Checker,
+    c: &mut Report,
     integrator: &mut I,
     state: &State<I::Group>,
     h: f64,
@@ -122,7 +123,7 @@ pub(super) fn symplecticity<I: FirstVariation>(
     for_each_pair(integrator, state, h, |pair, (before, after)| {
         let case = || format!("{state:?}, h = {h:?}");
         let formula = "omega(dF a, dF b) = omega(a, b)";
-        c.number(formula, case, pair, (after, before), ROUNDING)
+        Ok(c.number(formula, &case, pair, (after, before), ROUNDING)?)
     })
 }
 
@@ -168,7 +169,7 @@ pub fn check_reversibility<I: Integrator>(
 }
 
 pub(super) fn reversibility<I: Integrator>(
-    c: &mut Checker,
+    c: &mut Report,
     integrator: &mut I,
     state: &State<I::Group>,
     h: f64,
@@ -182,13 +183,19 @@ pub(super) fn reversibility<I: Integrator>(
     let (turn, zero) = (difference(&state.g, &there.g), state.g.zero_algebra());
     let reach = extent(&state.g);
     let formula = "g after h and -h = g";
-    c.vectors(formula, case, (&turn, &zero), ROUNDING * reach)?;
+    c.within(formula, &case, (&turn, &zero), ROUNDING * reach)?;
     let formula = "mu after h and -h = mu";
-    c.vectors(formula, case, (&there.mu, &state.mu), ROUNDING * size)
+    Ok(c.within(formula, &case, (&there.mu, &state.mu), ROUNDING * size)?)
 }
 
-/// $\log(a^{-1} b)$.
-pub(super) fn difference<G: RealGroup>(a: &G, b: &G) -> G::Algebra {
-    let log = a.inverse().compose(b).log();
-    log.unwrap_or_else(|e| e.representative)
+/// Takes so many steps; the largest of their residuals.
+pub(super) fn take<I: Integrator>(
+    integrator: &mut I,
+    state: &mut State<I::Group>,
+    (h, steps): (f64, u32),
+) -> Result<f64, StepError> {
+    (0..steps).try_fold(0.0, |worst, _| {
+        let report = integrator.step(state, h)?;
+        Ok(larger(worst, report.residual))
+    })
 }

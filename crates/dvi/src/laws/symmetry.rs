@@ -1,16 +1,15 @@
 //! Invariance of a discrete Lagrangian, and the momentum map that follows.
 
+use lie::laws::Report;
 use lie::{LieGroup, VectorSpace};
 
-use super::compare::{Checker, ROUNDING, extent, on_each};
+use super::compare::{ROUNDING, extent, on_each};
 use super::cyclic;
 use super::displacements::displacements;
-use super::verdict::{LawError, Outcome, Report};
+use super::steps::take;
+use super::verdict::{LawError, Outcome};
 use crate::system::generator;
-use crate::{
-    Context, Derivatives, DiscreteLagrangian, Integrator, State, Symmetry, Variational,
-    momentum_map,
-};
+use crate::{Context, Derivatives, DiscreteLagrangian, State, Symmetry, Variational, momentum_map};
 
 /// Parameters at which the invariance is tried.
 const PARAMETERS: [f64; 2] = [0.7, -1.3];
@@ -35,7 +34,7 @@ pub fn check_symmetry<L: DiscreteLagrangian>(
 }
 
 fn invariance<L: DiscreteLagrangian>(
-    c: &mut Checker,
+    c: &mut Report,
     lagrangian: &L,
     symmetry: &impl Symmetry<L::Group>,
     state: &State<L::Group>,
@@ -56,14 +55,14 @@ fn invariance<L: DiscreteLagrangian>(
             let case = || format!("t = {t:?}, g = {g:?}, f = {f:?}, h = {h:?}, parameter {s:?}");
             let formula = "L_d(a g, (a g)^-1 a (g f)) = L_d(g, f)";
             let tolerance = ROUNDING * size * extent(&moved);
-            c.number(formula, case, 0, (there, here), tolerance)?;
+            c.number(formula, &case, 0, (there, here), tolerance)?;
         }
     }
     Ok(())
 }
 
 fn momentum<L: DiscreteLagrangian>(
-    c: &mut Checker,
+    c: &mut Report,
     lagrangian: &L,
     symmetry: &impl Symmetry<L::Group>,
     state: &State<L::Group>,
@@ -71,10 +70,7 @@ fn momentum<L: DiscreteLagrangian>(
 ) -> Outcome {
     let (mut now, mut integrator) = (state.clone(), Variational::new(lagrangian));
     let start = momentum_map(symmetry, &state.g, &state.mu);
-    let mut solved = 0.0_f64;
-    for _ in 0..STEPS {
-        solved = solved.max(integrator.step(&mut now, h)?.residual);
-    }
+    let solved = take(&mut integrator, &mut now, (h, STEPS))?;
     let end = momentum_map(symmetry, &now.g, &now.mu);
     let zeta = generator(symmetry, &now.g).max_magnitude();
     let size = now.mu.max_magnitude() * zeta * now.mu.dim() as f64 * extent(&now.g);
@@ -83,5 +79,5 @@ fn momentum<L: DiscreteLagrangian>(
     let tolerance = (10.0 * f64::EPSILON * steps.sqrt() + steps * solved) * size;
     let case = || format!("{state:?}, h = {h:?}, after {STEPS} steps");
     let formula = "<mu, g^-1 d/ds a_s g> is constant";
-    c.number(formula, case, 0, (end, start), tolerance)
+    Ok(c.number(formula, &case, 0, (end, start), tolerance)?)
 }

@@ -1,4 +1,4 @@
-//! What a check did, or why it did not pass.
+//! Why a check did not pass.
 
 use core::ops::Range;
 
@@ -6,23 +6,13 @@ use thiserror::Error;
 
 use crate::StepError;
 
-/// What a check did.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Report {
-    /// Numbers compared.
-    pub comparisons: usize,
-    /// The largest ratio of a difference to its tolerance; below one.
-    pub worst: f64,
-}
-
 /// Why a check did not pass.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LawError {
-    /// There was nothing to try the laws on.
-    #[error("no state to check on: give at least one, laws cannot pass on nothing")]
-    NoExamples,
+    /// A formula does not hold, or there was nothing to try it on.
+    #[error(transparent)]
+    Law(#[from] lie::laws::LawError),
     /// The errors of the runs are those of rounding, or there is one run only: they show no order.
     #[error(
         "fewer than two runs have errors above rounding (step sizes and errors: {errors:?}): give more runs, of longer steps"
@@ -30,24 +20,6 @@ pub enum LawError {
     TooFewRuns {
         /// Step sizes, s, and errors of all runs.
         errors: Vec<(f64, f64)>,
-    },
-    /// A law does not hold.
-    #[error(
-        "the law {formula} fails: component {component} is {left:.17e} on the left and {right:.17e} on the right (tolerance {tolerance:.1e}), for {case}"
-    )]
-    Violated {
-        /// The law.
-        formula: &'static str,
-        /// The example it fails on.
-        case: String,
-        /// The coordinate.
-        component: usize,
-        /// The left-hand side there.
-        left: f64,
-        /// The right-hand side there.
-        right: f64,
-        /// The largest difference that rounding and the solver's tolerance explain.
-        tolerance: f64,
     },
     /// The kinetic energy has no inertia in some direction of the velocity.
     #[error(
@@ -89,7 +61,7 @@ pub(super) type Outcome = Result<(), LawError>;
 /// Refuses to check on nothing.
 pub(super) fn examples<T>(states: &[T]) -> Outcome {
     match states {
-        [] => Err(LawError::NoExamples),
+        [] => Err(lie::laws::LawError::NoExamples { what: "state" }.into()),
         _ => Ok(()),
     }
 }

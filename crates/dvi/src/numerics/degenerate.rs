@@ -1,5 +1,7 @@
 //! Directions in which a kinetic energy has no inertia.
 
+use lie::Lu;
+
 /// Roundings that elimination may leave in place of a zero, for each coordinate.
 const ROUNDINGS: f64 = 8.0;
 /// Inertia is what stays as the step vanishes: a pivot that shrinks by more than this is none.
@@ -7,91 +9,48 @@ const STAYS: f64 = 0.1;
 /// Passes that bring the rows of a symmetric matrix to the same size.
 const PASSES: usize = 4;
 
-/// A square matrix, row by row.
-#[derive(Clone)]
-pub(crate) struct Square {
-    n: usize,
-    entries: Vec<f64>,
-}
-
-impl Square {
-    pub(crate) fn new(n: usize, entries: Vec<f64>) -> Self {
-        Self { n, entries }
-    }
-
-    fn at(&self, i: usize, j: usize) -> f64 {
-        self.entries[i * self.n + j]
-    }
-
-    /// Multiplies rows and columns so that the largest entry of each is near one, whatever the units.
-    fn balance(&self) -> Vec<f64> {
-        let mut scales = vec![1.0; self.n];
-        for _ in 0..PASSES {
-            let largest = |i: usize| {
-                let row = (0..self.n).map(|j| (scales[i] * self.at(i, j) * scales[j]).abs());
-                row.fold(0.0, f64::max)
-            };
-            let sizes: Vec<f64> = (0..self.n).map(largest).collect();
-            for (scale, size) in scales.iter_mut().zip(sizes) {
-                if size > 0.0 {
-                    *scale /= size.sqrt();
-                }
-            }
-        }
-        scales
-    }
-
-    fn scaled(&self, scales: &[f64]) -> Self {
-        let mut scaled = self.clone();
-        for (k, entry) in scaled.entries.iter_mut().enumerate() {
-            *entry *= scales[k / self.n] * scales[k % self.n];
-        }
-        scaled
-    }
-
-    fn swap(&mut self, k: usize, (row, column): (usize, usize)) {
-        for j in 0..self.n {
-            self.entries.swap(k * self.n + j, row * self.n + j);
-        }
-        for i in 0..self.n {
-            self.entries.swap(i * self.n + k, i * self.n + column);
-        }
-    }
-
-    fn eliminate(&mut self, k: usize) {
-        for i in k + 1..self.n {
-            let factor = self.at(i, k) / self.at(k, k);
-            for j in k + 1..self.n {
-                self.entries[i * self.n + j] -= factor * self.at(k, j);
-            }
-        }
-    }
-}
-
-/// A coordinate along which a matrix has no inertia, by elimination with complete pivoting, if there is one.
+/// A coordinate along which a matrix has no inertia, if there is one: where its columns depend on those before.
 ///
 /// `short` and `long` are the same matrix at a short step and at a longer one: what is inertia is the same in both.
-pub(crate) fn without_inertia(short: &Square, long: &Square) -> Option<usize> {
-    let scales = long.balance();
-    let (mut short, mut long) = (short.scaled(&scales), long.scaled(&scales));
-    let n = long.n;
-    let rounding = ROUNDINGS * f64::EPSILON * n as f64;
-    let mut coordinates: Vec<usize> = (0..n).collect();
-    for k in 0..n {
-        let places = (k..n).flat_map(|i| (k..n).map(move |j| (i, j)));
-        let size = |(i, j): (usize, usize)| short.at(i, j).abs();
-        let (row, column) = places.reduce(|a, b| if size(b) > size(a) { b } else { a })?;
-        coordinates.swap(k, column);
-        short.swap(k, (row, column));
-        long.swap(k, (row, column));
-        let (pivot, longer) = (short.at(k, k).abs(), long.at(k, k).abs());
-        if !(pivot > rounding && pivot > STAYS * longer) {
-            return Some(coordinates[k]);
+pub(crate) fn without_inertia(short: &Lu<f64>, long: &Lu<f64>) -> Option<usize> {
+    let scales = balance(long);
+    let [mut short, mut long] = [short, long].map(|matrix| scaled(matrix, &scales));
+    short.factorise(|_, _| 1.0);
+    long.factorise_by(|_, k| short.exchanges()[k]);
+    let rounding = ROUNDINGS * f64::EPSILON * scales.len() as f64;
+    (0..scales.len()).find(|&k| {
+        let [pivot, longer] = [&short, &long].map(|matrix| matrix.at(k, k).abs());
+        !(pivot > rounding && pivot > STAYS * longer)
+    })
+}
+
+/// What rows and columns are multiplied by, so that the largest entry of each is near one, whatever the units.
+fn balance(matrix: &Lu<f64>) -> Vec<f64> {
+    let n = matrix.dim();
+    let mut scales = vec![1.0; n];
+    for _ in 0..PASSES {
+        let largest = |i: usize| {
+            let row = (0..n).map(|j| (scales[i] * matrix.at(i, j) * scales[j]).abs());
+            row.fold(0.0, f64::max)
+        };
+        let sizes: Vec<f64> = (0..n).map(largest).collect();
+        for (scale, size) in scales.iter_mut().zip(sizes) {
+            if size > 0.0 {
+                *scale /= size.sqrt();
+            }
         }
-        short.eliminate(k);
-        long.eliminate(k);
     }
-    None
+    scales
+}
+
+fn scaled(matrix: &Lu<f64>, scales: &[f64]) -> Lu<f64> {
+    let mut scaled = matrix.clone();
+    for (j, of_column) in scales.iter().enumerate() {
+        for (entry, of_row) in scaled.column_mut(j).iter_mut().zip(scales) {
+            *entry *= of_row * of_column;
+        }
+    }
+    scaled
 }
 
 #[cfg(test)]
@@ -99,8 +58,16 @@ mod tests {
     use super::*;
 
     fn found<const N: usize>(short: [[f64; N]; N], long: [[f64; N]; N]) -> Option<usize> {
-        let square = |rows: [[f64; N]; N]| Square::new(N, rows.concat());
-        without_inertia(&square(short), &square(long))
+        let [short, long] = [short, long].map(|rows| {
+            let mut matrix = Lu::new(N);
+            (0..N).for_each(|j| {
+                matrix
+                    .column_mut(j)
+                    .copy_from_slice(&rows.map(|row| row[j]))
+            });
+            matrix
+        });
+        without_inertia(&short, &long)
     }
 
     #[test]

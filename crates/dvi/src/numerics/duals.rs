@@ -24,6 +24,28 @@ pub(crate) fn read_partials<V: VectorSpace>(
     }
 }
 
+/// Sets the columns of a chunk by their rows and directions.
+#[inline(always)]
+pub(crate) fn set_columns<'a>(
+    columns: impl Iterator<Item = &'a mut [f64]>,
+    entry: impl Fn(usize, usize) -> f64,
+) {
+    for (direction, column) in columns.take(lie::JET_DIRECTIONS).enumerate() {
+        for (row, x) in column.iter_mut().enumerate() {
+            *x = entry(row, direction);
+        }
+    }
+}
+
+/// `x`, the variable of its own direction where the chunk from `first` on holds its index.
+#[inline(always)]
+pub(crate) fn seeded<J: Jet>(x: J::Value, index: usize, first: usize) -> J {
+    match index.checked_sub(first) {
+        Some(direction) if direction < lie::JET_DIRECTIONS => J::variable(x, direction),
+        _ => J::constant(x),
+    }
+}
+
 /// $x \leftarrow x + y$ for a `y` that is not differentiated.
 #[inline(always)]
 pub(crate) fn add_constant<V, W>(x: &mut V, y: &W)

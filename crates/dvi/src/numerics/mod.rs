@@ -2,7 +2,6 @@
 
 pub(crate) mod degenerate;
 pub(crate) mod duals;
-pub(crate) mod elimination;
-pub(crate) mod linear;
+pub(crate) mod large;
 pub(crate) mod numbers;
 pub(crate) mod sizes;

@@ -4,6 +4,7 @@ use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace}
 
 use super::context::{Adapter, Context, System};
 use super::discrete::{Derivatives, DiscreteLagrangian};
+use super::state::Still;
 
 /// The adjoint of a discrete Lagrangian, $L_d^\ast(t, g, f, h) = -L_d(t + h, g f, f^{-1}, -h)$.
 ///
@@ -115,8 +116,8 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for Adjoint<L> {
         out.d_g.scale(-S::one());
     }
 
-    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        self.0.is_defined(t, g)
+    fn is_defined(&self, t: f64, g: &L::Group, still: &Still<L::Group>) -> bool {
+        self.0.is_defined(t, g, still)
     }
     fn order(&self) -> u32 {
         self.0.order()

@@ -6,8 +6,8 @@ use core::ops::Range;
 use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 use super::context::{Context, System};
-use super::lifted::Lifted;
-use super::state::State;
+use super::lifted::{Arguments, Lifted};
+use super::state::{State, Still};
 use crate::numerics::duals::{for_each_chunk, read_partials};
 
 /// A discrete Lagrangian $L_d(g_k, f_k)$ with $f_k = g_k^{-1} g_{k+1}$: the action of one step of size $h$.
@@ -79,11 +79,11 @@ pub trait DiscreteLagrangian: System {
     /// Whether `g` is in the domain of $L_d$; by default, whether there is an action of staying there.
     ///
     /// A step whose end is not is refused. A system that is defined everywhere may say so: it saves an evaluation a step.
-    fn is_defined(&self, t: f64, g: &Self::Group) -> bool {
+    fn is_defined(&self, t: f64, g: &Self::Group, still: &Still<Self::Group>) -> bool {
         /// s: so short that it is still the time `t`.
         const MOMENT: f64 = 1e-100;
         let at = Context::new(t, self.parameters());
-        self.value::<f64>(at, g, &g.identity_like(), MOMENT)
+        self.value::<f64>(at, g, &still.displacement, MOMENT)
             .is_finite()
     }
 
@@ -179,8 +179,8 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for &L {
     ) {
         L::derivatives(self, at, g, f, h, work, out);
     }
-    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        L::is_defined(self, t, g)
+    fn is_defined(&self, t: f64, g: &L::Group, still: &Still<L::Group>) -> bool {
+        L::is_defined(self, t, g, still)
     }
     fn order(&self) -> u32 {
         L::order(self)
@@ -262,14 +262,25 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         f: &Over<G, S>,
         h: S,
     ) {
+        self.by_jets_of((at, (g, f), h), |(at, (g, f), h)| {
+            lagrangian.value(at, g, f, h)
+        });
+    }
+
+    /// The same of a function with storage of its own.
+    #[inline(always)]
+    pub(crate) fn by_jets_of(
+        &mut self,
+        arguments: Arguments<'_, G, S>,
+        mut value: impl FnMut(Arguments<'_, G, S::Jet>) -> S::Jet,
+    ) {
         let Self { d_f, d_g, lifted } = self;
+        let (_, (g, _), _) = arguments;
         let lifted = lifted.get_or_insert_with(|| Lifted::new(g));
-        lifted.set(at, (g, f), h);
+        lifted.set(arguments);
         for_each_chunk(d_f.dim(), |first| {
-            let (at, (g, f), h) = lifted.moving_f(first);
-            read_partials(d_f, first, lagrangian.value(at, g, f, h));
-            let (at, (g, f), h) = lifted.moving_g(first);
-            read_partials(d_g, first, lagrangian.value(at, g, f, h));
+            read_partials(d_f, first, value(lifted.moving_f(first)));
+            read_partials(d_g, first, value(lifted.moving_g(first)));
         });
     }
 }

@@ -3,7 +3,7 @@
 use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Retraction, Scalar, VectorSpace};
 
 use super::context::Context;
-use super::discretised::mean_velocity;
+use super::discretised::{Between, DiscretisedWorkspace};
 use super::lagrangian::Discretised;
 use super::quadrature::Place;
 
@@ -73,6 +73,9 @@ pub trait DiscreteForce {
     /// The configuration group.
     type Group: RealGroup;
 
+    /// Storage of the force's own, empty at first and kept from call to call; `()` where none is needed.
+    type Workspace<S: Scalar>: Default + Send + Sync;
+
     /// The impulses $f_d^-$ and $f_d^+$, each left-trivialised at its own end of the step, into two vectors that come in as zero.
     fn impulses<S: Scalar>(
         &self,
@@ -80,6 +83,7 @@ pub trait DiscreteForce {
         g: &Over<Self::Group, S>,
         f: &Over<Self::Group, S>,
         h: S,
+        work: &mut Self::Workspace<S>,
         out: [&mut DualOver<Self::Group, S>; 2],
     );
 
@@ -98,6 +102,7 @@ pub trait DiscreteForce {
 /// of a left translation that the continuous force keeps.
 impl<F: Force, R: Retraction> DiscreteForce for Discretised<F, R> {
     type Group = F::Group;
+    type Workspace<S: Scalar> = DiscretisedWorkspace<F::Group, S>;
 
     fn impulses<S: Scalar>(
         &self,
@@ -105,29 +110,31 @@ impl<F: Force, R: Retraction> DiscreteForce for Discretised<F, R> {
         g: &Over<F::Group, S>,
         f: &Over<F::Group, S>,
         h: S,
+        work: &mut Self::Workspace<S>,
         [minus, plus]: [&mut DualOver<F::Group, S>; 2],
     ) {
-        let xi = mean_velocity::<R, F::Group, S>(f, h);
-        let mut force = g.zero_dual();
+        let between = work.for_shape_of(g);
+        between.set_velocity::<R>(f, h);
         for &(weight, place) in self.rule.nodes() {
-            let scale = h * S::from_f64(weight);
+            let at = between.go(place, at, (g, f), h);
+            let Between {
+                xi,
+                root,
+                place: there,
+                force: [force, moved],
+            } = between;
             force.set_zero();
+            self.system.force(at, there, xi, force);
+            let scale = h * S::from_f64(weight);
             match place {
-                Place::Start => {
-                    self.system.force(at, g, &xi, &mut force);
-                    minus.add_scaled(scale, &force);
-                }
-                Place::End => {
-                    let at = at.at(at.t + h);
-                    self.system.force(at, &g.compose(f), &xi, &mut force);
-                    plus.add_scaled(scale, &force);
-                }
+                Place::Start => minus.add_scaled(scale, force),
+                Place::End => plus.add_scaled(scale, force),
                 Place::Middle => {
-                    let half = S::from_f64(0.5);
-                    let (at, root) = (at.at(at.t + h * half), f.sqrt());
-                    self.system.force(at, &g.compose(&root), &xi, &mut force);
-                    minus.add_scaled(scale * half, &root.inverse().coadjoint(&force));
-                    plus.add_scaled(scale * half, &root.coadjoint(&force));
+                    let half = scale * S::from_f64(0.5);
+                    root.inverse_coadjoint_into(force, moved);
+                    minus.add_scaled(half, moved);
+                    root.coadjoint_into(force, moved);
+                    plus.add_scaled(half, moved);
                 }
             }
         }

@@ -7,6 +7,7 @@ use super::continuous::ContinuousSystem;
 use super::discrete::{Derivatives, DiscreteLagrangian};
 use super::force::{DiscreteForce, Force};
 use super::lagrangian::Discretised;
+use super::state::Still;
 
 /// A system and a force that acts on it: a discrete Lagrangian with a [`DiscreteForce`], a [`ContinuousSystem`] with a [`Force`].
 ///
@@ -39,29 +40,31 @@ impl<L, R> Discretised<L, R> {
     }
 }
 
-/// Storage of the system, and for the force.
-pub struct ForcedWorkspace<W, V> {
+/// Storage of the system, for the force, and of the force's own.
+pub struct ForcedWorkspace<W, V, F = ()> {
     system: W,
     /// $f_d^-$ and $f_d^+$, or $F$ alone; then $f_d^+$ at the start of the step.
     force: Option<[V; 3]>,
+    of_force: F,
 }
 
-impl<W: Default, V> Default for ForcedWorkspace<W, V> {
+impl<W: Default, V, F: Default> Default for ForcedWorkspace<W, V, F> {
     fn default() -> Self {
         Self {
             system: W::default(),
             force: None,
+            of_force: F::default(),
         }
     }
 }
 
-impl<W, V: VectorSpace> ForcedWorkspace<W, V> {
+impl<W, V: VectorSpace, F> ForcedWorkspace<W, V, F> {
     /// Room for a force, zero.
     #[inline(always)]
-    fn force(&mut self, zero: impl Fn() -> V) -> &mut [V; 3] {
+    fn force(&mut self, zero: impl Fn() -> V) -> (&mut [V; 3], &mut F) {
         let force = self.force.get_or_insert_with(|| [zero(), zero(), zero()]);
         force[..2].iter_mut().for_each(V::set_zero);
-        force
+        (force, &mut self.of_force)
     }
 }
 
@@ -79,7 +82,8 @@ where
     L: DiscreteLagrangian,
     F: DiscreteForce<Group = L::Group>,
 {
-    type Workspace<S: Scalar> = ForcedWorkspace<L::Workspace<S>, DualOver<L::Group, S>>;
+    type Workspace<S: Scalar> =
+        ForcedWorkspace<L::Workspace<S>, DualOver<L::Group, S>, F::Workspace<S>>;
     const HAS_INERTIA: bool = L::HAS_INERTIA;
 
     fn value<S: Scalar>(
@@ -102,16 +106,17 @@ where
         out: &mut Derivatives<L::Group, S>,
     ) {
         self.system.derivatives(at, g, f, h, &mut work.system, out);
-        let [minus, plus, moved] = work.force(|| g.zero_dual());
-        self.force.impulses(at, g, f, h, [&mut *minus, &mut *plus]);
+        let ([minus, plus, moved], own) = work.force(|| g.zero_dual());
+        let impulses = [&mut *minus, &mut *plus];
+        self.force.impulses(at, g, f, h, own, impulses);
         out.d_f.add_scaled(S::one(), plus);
         out.d_g.add_scaled(S::one(), minus);
         f.inverse_coadjoint_into(plus, moved);
         out.d_g.add_scaled(S::one(), moved);
     }
 
-    fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        self.system.is_defined(t, g)
+    fn is_defined(&self, t: f64, g: &L::Group, still: &Still<L::Group>) -> bool {
+        self.system.is_defined(t, g, still)
     }
     fn order(&self) -> u32 {
         self.system.order().min(self.force.order())
@@ -161,7 +166,7 @@ where
     ) {
         let system = &mut work.system;
         self.system.velocity_and_force(at, g, mu, system, xi, tau);
-        let [force, ..] = work.force(|| g.zero_dual());
+        let ([force, ..], ()) = work.force(|| g.zero_dual());
         self.force.force(at, g, xi, force);
         tau.add_scaled(S::one(), force);
     }

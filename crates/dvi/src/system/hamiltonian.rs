@@ -1,15 +1,14 @@
 //! Hamilton's equations of a Lagrangian of which only the value is given.
 
-use lie::{AlgebraOver, DualOver, Jet, LieGroup, Over, Scalar, VectorSpace};
+use lie::{AlgebraOver, DualOver, Jet, LieGroup, Lu, Over, Scalar, VectorSpace};
 
 use super::context::{Adapter, Context, System};
 use super::continuous::ContinuousSystem;
 use super::lagrangian::{HamiltonianSystem, Lagrangian, is_defined};
 use super::lifted::Lifted;
-use super::state::State;
+use super::state::{State, Still};
 use crate::numerics::degenerate::without_inertia;
-use crate::numerics::duals::{add_constant, for_each_chunk, lift, read_partials};
-use crate::numerics::elimination::Elimination;
+use crate::numerics::duals::{add_constant, for_each_chunk, lift, read_partials, seeded};
 use crate::numerics::numbers::{larger, relative};
 use crate::numerics::sizes::Kinds;
 
@@ -76,7 +75,7 @@ struct RealNewton<L: Lagrangian, S: Scalar> {
     twice: Over<L::Group, Twice<S>>,
     moved: AlgebraOver<L::Group, Twice<S>>,
     gradient: DualOver<L::Group, S>,
-    hessian: Elimination<S>,
+    hessian: Lu<S>,
     xi: AlgebraOver<L::Group, S>,
     rhs: Vec<S>,
     /// The last correction of `xi`.
@@ -108,7 +107,7 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
             parameters: Vec::new(),
             twice: lifted,
             gradient: g.zero_dual(),
-            hessian: Elimination::new(dim),
+            hessian: Lu::new(dim),
             xi: g.zero_algebra(),
             rhs: vec![S::zero(); dim],
             delta: vec![S::zero(); dim],
@@ -142,8 +141,8 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
                 self.correct(-part);
                 continue;
             }
-            self.hessian.factorise();
-            self.hessian.solve(&mut self.rhs);
+            self.hessian.factorise_form();
+            self.hessian.solve(&mut self.rhs, |entry| entry);
             self.delta.copy_from_slice(&self.rhs);
             self.correct(1.0);
             (last, part) = (residual, 1.0);
@@ -182,8 +181,8 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
     /// Whether each residual is rounding of the terms that it is the difference of.
     fn is_rounding(&self, mu: &impl Fn(usize) -> S) -> bool {
         (0..self.rhs.len()).all(|i| {
-            let terms = self.hessian.row(i).iter().enumerate();
-            let terms = terms.map(|(j, h)| (*h * self.xi.get(j)).magnitude());
+            let term = |j: usize| (self.hessian.at(i, j) * self.xi.get(j)).magnitude();
+            let terms = (0..self.rhs.len()).map(term);
             let size = mu(i).magnitude() + self.gradient.get(i).magnitude() + terms.sum::<f64>();
             self.rhs[i].magnitude() <= ROUNDING * size
         })
@@ -223,19 +222,11 @@ impl<L: Lagrangian, S: Scalar<Real = S>> RealNewton<L, S> {
                 for j in column..end(column) {
                     let slope = value.partial(j - column);
                     for i in row..end(row) {
-                        self.hessian.set(i, j, slope.partial(i - row));
+                        self.hessian.column_mut(j)[i] = slope.partial(i - row);
                     }
                 }
             });
         });
-    }
-}
-
-/// `x`, the variable of its own direction where the chunk from `first` on holds it.
-fn seeded<J: Jet>(x: J::Value, i: usize, first: usize) -> J {
-    match i.checked_sub(first) {
-        Some(direction) if direction < lie::JET_DIRECTIONS => J::variable(x, direction),
-        _ => J::constant(x),
     }
 }
 
@@ -285,7 +276,7 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
             for (i, entry) in work.rhs.iter_mut().enumerate() {
                 *entry = mu.get(i) - work.gradient.get(i);
             }
-            work.newton.hessian.solve(&mut work.rhs);
+            work.newton.hessian.solve(&mut work.rhs, S::from_real);
             for (i, delta) in work.rhs.iter().enumerate() {
                 xi.set(i, xi.get(i) + *delta);
             }
@@ -324,7 +315,7 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     }
 
     fn is_defined(&self, t: f64, g: &L::Group) -> bool {
-        is_defined(&self.0, t, g)
+        is_defined(&self.0, t, g, &Still::at(g))
     }
 
     fn without_inertia(&self, t: f64, g: &L::Group) -> Option<usize> {
@@ -332,7 +323,6 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
         L::Group::convert_into::<f64, Twice<f64>>(g, twice, &mut newton.twice);
         lift(self.0.parameters(), twice, &mut newton.parameters);
         newton.differentiate(&self.0, t);
-        let hessian = newton.hessian.square();
-        without_inertia(&hessian, &hessian)
+        without_inertia(&newton.hessian, &newton.hessian)
     }
 }

@@ -7,7 +7,7 @@ use lie::{AlgebraOver, Cayley, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpa
 use super::context::{Context, System};
 use super::quadrature::Quadrature;
 use super::shape::ShapeError;
-use super::state::State;
+use super::state::{State, Still};
 use crate::numerics::duals::{add_constant, for_each_chunk, read_partials};
 
 /// A Lagrangian $L(g, \xi)$ on a left-trivialised tangent bundle, $\dot g = g \xi$.
@@ -144,9 +144,14 @@ pub trait Lagrangian: System {
 }
 
 /// Whether $L$ has a value at rest at `g`: whether that is in its domain.
-pub(crate) fn is_defined<L: Lagrangian>(lagrangian: &L, t: f64, g: &L::Group) -> bool {
-    let (at, still) = (Context::new(t, lagrangian.parameters()), g.zero_algebra());
-    lagrangian.value::<f64>(at, g, &still).is_finite()
+pub(crate) fn is_defined<L: Lagrangian>(
+    lagrangian: &L,
+    t: f64,
+    g: &L::Group,
+    still: &Still<L::Group>,
+) -> bool {
+    let at = Context::new(t, lagrangian.parameters());
+    lagrangian.value::<f64>(at, g, &still.velocity).is_finite()
 }
 
 impl<L: Lagrangian> Lagrangian for &L {
@@ -190,7 +195,7 @@ impl<L: Lagrangian> Lagrangian for &L {
 /// With $\xi = \tau^{-1}(f)/h$, $L_d(t, g, f) = h \sum_i b_i L(t + c_i h, g f^{c_i}, \xi)$. Where $f$ is outside the
 /// retraction's chart, a turn by $\pi$, the value is not a number and the step is refused.
 ///
-/// Made by [`Lagrangian::discretise`]; on groups of run-time size its value allocates.
+/// Made by [`Lagrangian::discretise`]; on groups of run-time size its value allocates, its derivatives do not.
 ///
 /// ```
 /// use dvi::{Context, DiscreteLagrangian, Lagrangian, Quadrature, System};

@@ -9,12 +9,8 @@ use crate::numerics::duals::lift;
 /// An element of `G` over the duals of `S`.
 type Moved<G, S> = Over<G, <S as Scalar>::Jet>;
 
-/// The arguments of a discrete Lagrangian over the duals of `S`.
-type Arguments<'a, G, S> = (
-    Context<'a, <S as Scalar>::Jet>,
-    (&'a Moved<G, S>, &'a Moved<G, S>),
-    <S as Scalar>::Jet,
-);
+/// The arguments of a discrete Lagrangian: time and parameters, $g$ and $f$, and $h$.
+pub(crate) type Arguments<'a, G, S> = (Context<'a, S>, (&'a Over<G, S>, &'a Over<G, S>), S);
 
 /// $g$ and $f$ over the duals of `S`, with room for the moved one.
 pub(crate) struct Lifted<G: RealGroup, S: Scalar> {
@@ -52,7 +48,7 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
         self.g.zero_algebra()
     }
 
-    pub(crate) fn set(&mut self, at: Context<S>, (g, f): (&Over<G, S>, &Over<G, S>), h: S) {
+    pub(crate) fn set(&mut self, (at, (g, f), h): Arguments<'_, G, S>) {
         self.set_g(at, g);
         self.h = Jet::constant(h);
         G::convert_into::<S, S::Jet>(f, Jet::constant, &mut self.f);
@@ -70,14 +66,14 @@ impl<G: RealGroup, S: Scalar> Lifted<G, S> {
     }
 
     /// $(g, f \exp\zeta)$ with the directions from `first` on; to first order, any retraction is the exponential.
-    pub(crate) fn moving_f(&mut self, first: usize) -> Arguments<'_, G, S> {
+    pub(crate) fn moving_f(&mut self, first: usize) -> Arguments<'_, G, S::Jet> {
         self.step_along(first);
         self.f.compose_into(&self.small, &mut self.moved);
         (self.context(), (&self.g, &self.moved), self.h)
     }
 
     /// $(g \exp\eta, f)$, likewise.
-    pub(crate) fn moving_g(&mut self, first: usize) -> Arguments<'_, G, S> {
+    pub(crate) fn moving_g(&mut self, first: usize) -> Arguments<'_, G, S::Jet> {
         self.step_along(first);
         self.g.compose_into(&self.small, &mut self.moved);
         (self.context(), (&self.moved, &self.f), self.h)

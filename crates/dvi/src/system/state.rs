@@ -45,3 +45,24 @@ pub struct Pair<G: RealGroup> {
     /// Displacement $f_k = g_k^{-1} g_{k+1}$.
     pub f: G,
 }
+
+/// Staying where one is, of the shape of a configuration: no displacement, no velocity.
+///
+/// Integrators keep one, so that [asking for a domain](crate::DiscreteLagrangian::is_defined) in every step does not allocate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Still<G: RealGroup> {
+    /// The identity.
+    pub displacement: G,
+    /// Zero.
+    pub velocity: G::Algebra,
+}
+
+impl<G: RealGroup> Still<G> {
+    /// That of the shape of `g`.
+    pub fn at(g: &G) -> Self {
+        Self {
+            displacement: g.identity_like(),
+            velocity: g.zero_algebra(),
+        }
+    }
+}

@@ -12,7 +12,7 @@ use lie::{LieGroup, VectorSpace};
 use crate::step::{check_momentum, check_step, finite};
 use crate::{
     Cause, DiscreteLagrangian, FirstVariation, Hint, Integrator, Pair, State, StepError,
-    StepReport, Variation, legendre_plus,
+    StepReport, Still, Variation, legendre_plus,
 };
 use linearised::Linearised;
 pub(crate) use newton::degenerate;
@@ -91,9 +91,10 @@ impl<L: DiscreteLagrangian> Variational<L> {
     /// As [`step`](Integrator::step).
     pub fn displacement(&mut self, state: &State<L::Group>, h: f64) -> Result<L::Group, StepError> {
         self.solve(state, h)?;
-        let f = self.work(state, h).balance.f.clone();
+        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), self.keeps_all);
+        let f = work.balance.f.clone();
         let end = state.g.compose(&f);
-        let ends = require_end(&self.lagrangian, state.t + h, &end);
+        let ends = require_end(&self.lagrangian, state.t + h, &end, &work.still);
         ends.map_err(|cause| self.error(state.t, h, cause))?;
         Ok(f)
     }
@@ -145,7 +146,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
         if self.normalizes() {
             next.g.normalize();
         }
-        require_end(&self.lagrangian, next.t, &next.g)?;
+        require_end(&self.lagrangian, next.t, &next.g, &Still::at(g))?;
         Ok(next)
     }
 
@@ -157,7 +158,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
         if normalizes {
             work.next.normalize();
         }
-        let ends = require_end(&self.lagrangian, state.t + h, &work.next);
+        let ends = require_end(&self.lagrangian, state.t + h, &work.next, &work.still);
         ends.map_err(|cause| cause.at((self.steps, state.t, h)))?;
         core::mem::swap(&mut state.g, &mut work.next);
         core::mem::swap(&mut state.mu, &mut work.balance.transported);
@@ -258,8 +259,13 @@ impl<L: DiscreteLagrangian> Variational<L> {
 }
 
 /// Refuses a step that ends at no configuration of the Lagrangian's domain.
-fn require_end<L: DiscreteLagrangian>(lagrangian: &L, t: f64, end: &L::Group) -> Result<(), Cause> {
-    let ends = end.is_finite() && lagrangian.is_defined(t, end);
+fn require_end<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    t: f64,
+    end: &L::Group,
+    still: &Still<L::Group>,
+) -> Result<(), Cause> {
+    let ends = end.is_finite() && lagrangian.is_defined(t, end, still);
     ends.then_some(()).ok_or(Cause::NotFinite)
 }
 
@@ -307,13 +313,14 @@ impl<L: DiscreteLagrangian> Integrator for Variational<L> {
 
     fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
         self.solve(state, h)?;
-        let balance = &self.work(state, h).balance;
+        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), self.keeps_all);
+        let balance = &work.balance;
         let ahead = State {
             t: state.t + h,
             g: state.g.compose(&balance.f),
             mu: balance.transported.clone(),
         };
-        let ends = require_end(&self.lagrangian, ahead.t, &ahead.g);
+        let ends = require_end(&self.lagrangian, ahead.t, &ahead.g, &work.still);
         let ahead = ends.and_then(|()| finite(ahead));
         ahead.map_err(|cause| self.error(state.t, h, cause))
     }

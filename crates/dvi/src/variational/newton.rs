@@ -2,12 +2,11 @@
 
 use core::ops::Range;
 
-use lie::{AlgebraOver, Cayley, DualOver, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
+use lie::{AlgebraOver, Cayley, DualOver, Jet, LieGroup, Lu, Over, RealGroup, Scalar, VectorSpace};
 
 use super::balance::Balance;
 use crate::numerics::degenerate::without_inertia;
-use crate::numerics::duals::{add_constant, for_each_chunk, lift};
-use crate::numerics::linear::Factorisation;
+use crate::numerics::duals::{add_constant, for_each_chunk, lift, set_columns};
 use crate::system::{Algebra, Dual};
 use crate::{Context, Derivatives, DiscreteLagrangian, State};
 
@@ -21,8 +20,11 @@ pub(super) const DENSE_LIMIT: usize = 128;
 ///
 /// Needs nothing but the discrete Lagrangian's value. The solve is dense, of the size of the group's dimension.
 pub(crate) struct Newton<L: DiscreteLagrangian> {
-    matrix: Factorisation,
-    cyclic: Option<Factorisation>,
+    matrix: Lu<f64>,
+    /// The same in the chart.
+    in_chart: Lu<f64>,
+    cyclic: Option<Lu<f64>>,
+    rhs: Vec<f64>,
     known: bool,
     /// The step size of the matrix, which goes as its inverse.
     h: f64,
@@ -54,8 +56,10 @@ impl<L: DiscreteLagrangian> Newton<L> {
         let (f, column) = (g.clone(), core::array::from_fn(|_| g.zero_dual()));
         let g = g.lift::<J>();
         Self {
-            matrix: Factorisation::new(dim),
-            cyclic: (!cyclic.is_empty()).then(|| Factorisation::new(cyclic.len())),
+            matrix: Lu::new(dim),
+            in_chart: Lu::new(dim),
+            cyclic: (!cyclic.is_empty()).then(|| Lu::new(cyclic.len())),
+            rhs: vec![0.0; dim],
             known: false,
             h: 1.0,
             scale: 1.0,
@@ -102,8 +106,8 @@ impl<L: DiscreteLagrangian> Newton<L> {
         if self.inertia.is_none() {
             let [mut inertia, longer] =
                 VANISHING.map(|part| inertia(lagrangian, state, part * h.abs()));
-            self.degenerate = without_inertia(&inertia.square(), &longer.square());
-            self.inertia = Some(inertia.index(|column, out| out.copy_from_slice(column)));
+            self.degenerate = without_inertia(&inertia, &longer);
+            self.inertia = Some(index(&mut inertia));
         }
         (self.h, self.scale) = (h, 1.0);
         self.balance.set_parameters(lagrangian);
@@ -116,20 +120,21 @@ impl<L: DiscreteLagrangian> Newton<L> {
             add_constant(&mut self.c, c);
             self.balance.retract(&self.c);
             self.balance.evaluate(lagrangian, t, &self.g, &self.mu, h);
-            let last = mu.dim().min(first + lie::JET_DIRECTIONS);
-            for column in first..last {
-                for row in 0..mu.dim() {
-                    let entry = self.balance.residual.get(row).partial(column - first);
-                    self.matrix.set(row, column, entry);
-                }
-            }
+            let residual = &self.balance.residual;
+            set_columns(self.matrix.columns_mut(first), |row, direction| {
+                residual.get(row).partial(direction)
+            });
         });
         if let Some(block) = &mut self.cyclic {
-            block.copy_block(&self.matrix, cyclic(lagrangian, mu.dim()));
-            block.factorise();
+            let cyclic = cyclic(lagrangian, mu.dim());
+            for (j, column) in cyclic.clone().enumerate() {
+                let column = &self.matrix.column_mut(column)[cyclic.clone()];
+                block.column_mut(j).copy_from_slice(column);
+            }
+            block.factorise_form();
         }
         self.index = self.index_in_chart(c);
-        self.matrix.factorise();
+        self.matrix.factorise_form();
         self.known = true;
     }
 
@@ -140,8 +145,9 @@ impl<L: DiscreteLagrangian> Newton<L> {
 
     /// The correction $\delta$ that the linearised residual asks for; `c - delta` is the next iterate.
     pub(crate) fn solve(&mut self, residual: &Dual<L>, delta: &mut Algebra<L>) {
-        residual.write(self.matrix.right_hand_side());
-        delta.read(self.matrix.solve());
+        residual.write(&mut self.rhs);
+        self.matrix.solve(&mut self.rhs, |entry| entry);
+        delta.read(&self.rhs);
         delta.scale(self.scale);
     }
 
@@ -155,15 +161,13 @@ impl<L: DiscreteLagrangian> Newton<L> {
         let Some(block) = &mut self.cyclic else {
             return;
         };
-        let rhs = block.right_hand_side();
-        cyclic
-            .clone()
-            .enumerate()
-            .for_each(|(k, i)| rhs[k] = residual.get(i));
+        let x = &mut self.rhs[..cyclic.len()];
+        for (x, i) in x.iter_mut().zip(cyclic.clone()) {
+            *x = residual.get(i);
+        }
+        block.solve(x, |entry| entry);
         delta.set_zero();
-        cyclic
-            .zip(block.solve())
-            .for_each(|(i, x)| delta.set(i, *x));
+        cyclic.zip(x).for_each(|(i, x)| delta.set(i, *x));
         delta.scale(self.scale);
     }
 
@@ -173,18 +177,26 @@ impl<L: DiscreteLagrangian> Newton<L> {
             f,
             column: [end, start, chart],
             matrix,
+            in_chart,
             h,
             ..
         } = self;
         L::Group::retract_into::<Cayley>(c, f);
-        matrix.index(|column, out| {
-            end.read(column);
+        for j in 0..matrix.dim() {
+            end.read(matrix.column_mut(j));
             f.inverse_coadjoint_into(end, start);
             L::Group::chart_leave_into::<Cayley>(c, start, (&mut *f, &mut *end, &mut *chart));
             chart.scale(h.signum());
-            chart.write(out);
-        })
+            chart.write(in_chart.column_mut(j));
+        }
+        index(in_chart)
     }
+}
+
+/// How many pivots are negative as the matrix is eliminated without exchanges; its factors replace it.
+fn index(matrix: &mut Lu<f64>) -> usize {
+    matrix.factorise_by(|_, k| k);
+    matrix.negative_pivots()
 }
 
 /// A coordinate along which $L_d$ has no inertia, where the dimension is small enough to look.
@@ -196,7 +208,7 @@ pub(crate) fn degenerate<L: DiscreteLagrangian>(
     if state.mu.dim() > DENSE_LIMIT {
         return None;
     }
-    let [short, long] = VANISHING.map(|part| inertia(lagrangian, state, part * h).square());
+    let [short, long] = VANISHING.map(|part| inertia(lagrangian, state, part * h));
     without_inertia(&short, &long)
 }
 
@@ -204,18 +216,14 @@ pub(crate) fn degenerate<L: DiscreteLagrangian>(
 const VANISHING: [f64; 2] = [1e-8, 1e-6];
 
 /// $h\, \mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ at $f = e$: for a short step the inertia.
-fn inertia<L: DiscreteLagrangian>(
-    lagrangian: &L,
-    state: &State<L::Group>,
-    h: f64,
-) -> Factorisation {
+fn inertia<L: DiscreteLagrangian>(lagrangian: &L, state: &State<L::Group>, h: f64) -> Lu<f64> {
     let g = state.g.lift::<J>();
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
     let (mut derivatives, mut work) = (Derivatives::new(&g), Default::default());
     let mut parameters = Vec::new();
     lift(lagrangian.parameters(), J::constant, &mut parameters);
     let dim = c.dim();
-    let mut inertia = Factorisation::new(dim);
+    let mut inertia = Lu::new(dim);
     let (at, step) = (
         Context::new(J::constant(state.t), &parameters),
         J::constant(h),
@@ -224,12 +232,9 @@ fn inertia<L: DiscreteLagrangian>(
         lie::seed(&mut c, first);
         Over::<L::Group, J>::retract_into::<Cayley>(&c, &mut f);
         lagrangian.derivatives(at, &g, &f, step, &mut work, &mut derivatives);
-        for column in first..dim.min(first + lie::JET_DIRECTIONS) {
-            for row in 0..dim {
-                let entry = derivatives.d_f.get(row).partial(column - first);
-                inertia.set(row, column, h * entry);
-            }
-        }
+        set_columns(inertia.columns_mut(first), |row, direction| {
+            h * derivatives.d_f.get(row).partial(direction)
+        });
     });
     inertia
 }

@@ -11,7 +11,7 @@ use super::warm_start::WarmStart;
 use crate::numerics::numbers::larger;
 use crate::numerics::sizes::{Kinds, Relative, Sizes, Weights, shake, shaken};
 use crate::system::{Algebra, Dual};
-use crate::{Context, Derivatives, DiscreteLagrangian, State, StepReport};
+use crate::{Context, Derivatives, DiscreteLagrangian, State, StepReport, Still};
 
 /// Evaluations of the balance before a step is given up.
 const MAX_ITERATIONS: u32 = 60;
@@ -55,6 +55,7 @@ pub(super) struct Work<L: DiscreteLagrangian> {
     /// The solution of a part of the step.
     reached: Algebra<L>,
     pub(super) next: L::Group,
+    pub(super) still: Still<L::Group>,
     /// Made when first needed.
     shaken: Option<Shaken<L::Group>>,
 }
@@ -169,6 +170,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             reached: c.clone(),
             c,
             next: g.clone(),
+            still: Still::at(g),
             shaken: None,
             matrix,
         }

@@ -247,6 +247,7 @@ impl Force for Torque {
 
 impl DiscreteForce for Torque {
     type Group = SO3;
+    type Workspace<S: Scalar> = ();
 
     fn impulses<S: Scalar>(
         &self,
@@ -254,6 +255,7 @@ impl DiscreteForce for Torque {
         _: &SO3<S>,
         f: &SO3<S>,
         h: S,
+        (): &mut (),
         [minus, plus]: [&mut Cotangent<3, S>; 2],
     ) {
         let turned = f.minus_identity().skew_vee();

@@ -1,6 +1,7 @@
 //! The integrators and their laws on small systems: one program, for what they share is compiled once.
 
 mod adapters;
+mod allocation;
 mod common;
 mod composition;
 mod domains;

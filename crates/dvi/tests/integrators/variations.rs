@@ -19,6 +19,7 @@ struct Constant<G: RealGroup>(G::Dual);
 
 impl<G: RealGroup> DiscreteForce for Constant<G> {
     type Group = G;
+    type Workspace<S: Scalar> = ();
 
     fn impulses<S: Scalar>(
         &self,
@@ -26,6 +27,7 @@ impl<G: RealGroup> DiscreteForce for Constant<G> {
         _: &Over<G, S>,
         _: &Over<G, S>,
         h: S,
+        (): &mut (),
         out: [&mut DualOver<G, S>; 2],
     ) {
         for impulse in out {

@@ -1,12 +1,12 @@
 //! The adjoint action, the bracket, and their transposes.
 
-use super::checker::{Checker, by_pairing, size, tolerance};
+use super::checker::{Report, by_pairing, size, tolerance};
 use super::examples::Examples;
 use super::linear::{generic, scaled, sum, vector_size};
 use super::verdict::Outcome;
 use crate::{LieGroup, Scalar, VectorSpace};
 
-pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
+pub(super) fn check<G: LieGroup>(c: &mut Report, examples: &Examples<G>) -> Outcome {
     for g in examples.elements {
         for xi in &examples.velocities {
             for h in examples.elements {
@@ -33,14 +33,14 @@ pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Out
     Ok(())
 }
 
-fn homomorphism<G: LieGroup>(c: &mut Checker, g: &G, h: &G, xi: &G::Algebra) -> Outcome {
+fn homomorphism<G: LieGroup>(c: &mut Report, g: &G, h: &G, xi: &G::Algebra) -> Outcome {
     let case = || format!("g = {g:?}, h = {h:?}, xi = {xi:?}");
     let scale = (size(g) * size(h)).powi(2) * vector_size(xi);
     let (left, right) = (g.compose(h).adjoint(xi), g.adjoint(&h.adjoint(xi)));
     c.vectors("Ad_gh xi = Ad_g Ad_h xi", &case, (&left, &right), scale)
 }
 
-fn conjugation<G: LieGroup>(c: &mut Checker, g: &G, xi: &G::Algebra) -> Outcome {
+fn conjugation<G: LieGroup>(c: &mut Report, g: &G, xi: &G::Algebra) -> Outcome {
     let case = || format!("g = {g:?}, xi = {xi:?}");
     let scale = size(g).powi(2) * vector_size(xi);
     let left = G::exp(&g.adjoint(xi));
@@ -50,7 +50,7 @@ fn conjugation<G: LieGroup>(c: &mut Checker, g: &G, xi: &G::Algebra) -> Outcome 
 }
 
 /// By the pairing with the whole basis, which leaves a dual vector no freedom.
-fn coadjoint<G: LieGroup>(c: &mut Checker, g: &G, examples: &Examples<G>) -> Outcome {
+fn coadjoint<G: LieGroup>(c: &mut Report, g: &G, examples: &Examples<G>) -> Outcome {
     let images: Vec<_> = examples.basis.iter().map(|e| g.adjoint(e)).collect();
     for mu in &examples.momenta {
         let (case, moved) = (|| format!("g = {g:?}, mu = {mu:?}"), g.coadjoint(mu));
@@ -65,7 +65,7 @@ fn coadjoint<G: LieGroup>(c: &mut Checker, g: &G, examples: &Examples<G>) -> Out
 }
 
 fn coadjoint_bracket<G: LieGroup>(
-    c: &mut Checker,
+    c: &mut Report,
     xi: &G::Algebra,
     examples: &Examples<G>,
 ) -> Outcome {
@@ -79,7 +79,7 @@ fn coadjoint_bracket<G: LieGroup>(
     Ok(())
 }
 
-fn pairing<G: LieGroup>(c: &mut Checker, xi: &G::Algebra, examples: &Examples<G>) -> Outcome {
+fn pairing<G: LieGroup>(c: &mut Report, xi: &G::Algebra, examples: &Examples<G>) -> Outcome {
     for mu in &examples.momenta {
         let zero = G::Scalar::from_f64(0.0);
         let products = (0..xi.dim()).map(|i| mu.get(i) * xi.get(i));
@@ -95,7 +95,7 @@ fn pairing<G: LieGroup>(c: &mut Checker, xi: &G::Algebra, examples: &Examples<G>
     Ok(())
 }
 
-fn antisymmetry<G: LieGroup>(c: &mut Checker, xi: &G::Algebra, eta: &G::Algebra) -> Outcome {
+fn antisymmetry<G: LieGroup>(c: &mut Report, xi: &G::Algebra, eta: &G::Algebra) -> Outcome {
     let case = || format!("xi = {xi:?}, eta = {eta:?}");
     let scale = vector_size(xi) * vector_size(eta);
     let (left, right) = (G::bracket(xi, eta), scaled(&G::bracket(eta, xi), -1.0));
@@ -103,7 +103,7 @@ fn antisymmetry<G: LieGroup>(c: &mut Checker, xi: &G::Algebra, eta: &G::Algebra)
 }
 
 fn jacobi<G: LieGroup>(
-    c: &mut Checker,
+    c: &mut Report,
     xi: &G::Algebra,
     eta: &G::Algebra,
     zeta: &G::Algebra,

@@ -1,6 +1,6 @@
 //! What steps in a chart are made of, against the maps they stand for; and compensated products.
 
-use super::checker::{Checker, size};
+use super::checker::{Report, size};
 use super::examples::Examples;
 use super::linear::{at_most, generic, scaled, vector_size};
 use super::verdict::{Family, Outcome};
@@ -9,7 +9,7 @@ use crate::{Cayley, Exp, LieGroup, Retraction, Scalar, VectorSpace};
 /// Products of one small displacement, in a row.
 const PRODUCTS: u32 = 64;
 
-pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
+pub(super) fn check<G: Family>(c: &mut Report, examples: &Examples<G>) -> Outcome {
     for g in examples.elements {
         inverses(c, examples, g)?;
         for xi in &examples.velocities {
@@ -29,7 +29,7 @@ pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outco
     Ok(())
 }
 
-fn inverses<G: LieGroup>(c: &mut Checker, examples: &Examples<G>, g: &G) -> Outcome {
+fn inverses<G: LieGroup>(c: &mut Report, examples: &Examples<G>, g: &G) -> Outcome {
     let (case, mut out) = (|| format!("g = {g:?}"), g.compose(g));
     g.inverse_into(&mut out);
     c.elements(
@@ -50,7 +50,7 @@ fn inverses<G: LieGroup>(c: &mut Checker, examples: &Examples<G>, g: &G) -> Outc
 }
 
 /// One product after another, and the same in one.
-fn products<G: LieGroup>(c: &mut Checker, g: &G, xi: &G::Algebra) -> Outcome {
+fn products<G: LieGroup>(c: &mut Report, g: &G, xi: &G::Algebra) -> Outcome {
     let case = || format!("g = {g:?}, xi = {xi:?}");
     let whole = at_most(xi, 0.5);
     let part = G::exp(&scaled(&whole, 1.0 / f64::from(PRODUCTS)));
@@ -69,7 +69,7 @@ fn products<G: LieGroup>(c: &mut Checker, g: &G, xi: &G::Algebra) -> Outcome {
     )
 }
 
-fn ends<G: LieGroup, R: Retraction>(c: &mut Checker, xi: &G::Algebra, mu: &G::Dual) -> Outcome {
+fn ends<G: LieGroup, R: Retraction>(c: &mut Report, xi: &G::Algebra, mu: &G::Dual) -> Outcome {
     let case = || format!("{}, c = {xi:?}, momentum {mu:?}", R::NAME);
     let scale = vector_size(xi).powi(3) * vector_size(mu);
     let element = G::retract::<R>(xi);
@@ -101,7 +101,7 @@ fn ends<G: LieGroup, R: Retraction>(c: &mut Checker, xi: &G::Algebra, mu: &G::Du
 }
 
 fn rates<G: LieGroup, R: Retraction>(
-    c: &mut Checker,
+    c: &mut Report,
     (xi, mu): (&G::Algebra, &G::Dual),
     eta: &G::Algebra,
 ) -> Outcome {

@@ -26,16 +26,77 @@ pub(super) fn difference_tolerance<S: Scalar>(scale: f64) -> f64 {
 
 /// The example at hand, for the message of a failure; its type forgotten, so that comparing is compiled once for each type that
 /// is compared, and not for every law again.
-pub(super) type Case<'a> = &'a dyn Fn() -> String;
+pub type Case<'a> = &'a dyn Fn() -> String;
 
-/// Counts the comparisons and keeps the worst.
-#[derive(Default)]
-pub(super) struct Checker {
-    pub(super) comparisons: usize,
-    pub(super) worst: f64,
+/// What a check did: it counts the comparisons and keeps the worst.
+///
+/// [`check`](super::check) returns one; laws of your own start from the default and compare with it.
+///
+/// ```
+/// use lie::laws::Report;
+///
+/// let mut report = Report::default();
+/// let case = || "x = 2".to_string();
+/// report.number("x + x = 2 x", &case, 0, (2.0 + 2.0, 2.0 * 2.0), 1e-15)?;
+/// assert_eq!((report.comparisons, report.worst), (1, 0.0));
+/// # Ok::<(), lie::laws::LawError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Report {
+    /// Numbers compared.
+    pub comparisons: usize,
+    /// The largest ratio of a difference to its tolerance; below one.
+    pub worst: f64,
 }
 
-impl Checker {
+impl Report {
+    /// Compares two numbers, the component of this index of the two sides of a law.
+    ///
+    /// # Errors
+    /// [`LawError::Violated`] where they differ by more than the tolerance, or where one is not a number.
+    pub fn number<S: Scalar>(
+        &mut self,
+        formula: &'static str,
+        case: Case<'_>,
+        component: usize,
+        (left, right): (S, S),
+        tolerance: f64,
+    ) -> Result<(), LawError> {
+        self.comparisons += 1;
+        let difference = (left - right).magnitude();
+        if difference > 0.0 {
+            self.worst = self.worst.max(difference / tolerance);
+        }
+        // Written so that NaN fails; an infinite tolerance would pass anything.
+        if difference <= tolerance && tolerance.is_finite() {
+            return Ok(());
+        }
+        Err(LawError::Violated {
+            formula,
+            case: case(),
+            component,
+            left: signed(left),
+            right: signed(right),
+            tolerance,
+        })
+    }
+
+    /// Compares two vectors coordinate by coordinate.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn within<V: VectorSpace>(
+        &mut self,
+        formula: &'static str,
+        case: Case<'_>,
+        (left, right): (&V, &V),
+        tolerance: f64,
+    ) -> Result<(), LawError> {
+        let (left, right) = (coordinates(left), coordinates(right));
+        self.numbers(formula, case, (&left, &right), tolerance)
+    }
+
     /// Compares numbers one by one.
     pub(super) fn numbers<S: Scalar>(
         &mut self,
@@ -44,21 +105,9 @@ impl Checker {
         (left, right): (&[S], &[S]),
         tolerance: f64,
     ) -> Outcome {
-        for (component, (a, b)) in left.iter().zip(right).enumerate() {
-            self.comparisons += 1;
-            let ratio = (*a - *b).magnitude() / tolerance;
-            self.worst = self.worst.max(ratio);
-            // Written so that NaN fails; an infinite tolerance would pass anything.
-            if !(ratio <= 1.0 && tolerance.is_finite()) {
-                return Err(LawError::Violated {
-                    formula,
-                    case: case(),
-                    component,
-                    left: signed(*a),
-                    right: signed(*b),
-                    tolerance,
-                });
-            }
+        let sides = left.iter().zip(right).enumerate();
+        for (component, (a, b)) in sides {
+            self.number(formula, case, component, (*a, *b), tolerance)?;
         }
         Ok(())
     }
@@ -73,18 +122,6 @@ impl Checker {
     ) -> Outcome {
         let tolerance = tolerance::<V::Scalar>(scale);
         self.within(formula, case, (left, right), tolerance)
-    }
-
-    /// Compares two vectors coordinate by coordinate.
-    pub(super) fn within<V: VectorSpace>(
-        &mut self,
-        formula: &'static str,
-        case: Case<'_>,
-        (left, right): (&V, &V),
-        tolerance: f64,
-    ) -> Outcome {
-        let (left, right) = (coordinates(left), coordinates(right));
-        self.numbers(formula, case, (&left, &right), tolerance)
     }
 
     /// Compares two elements by the logarithm of $a^{-1} b$, and by $\mathrm{Ad}$ on the basis.
@@ -138,7 +175,7 @@ pub(super) fn by_pairing<G: LieGroup>(mu: &G::Dual, images: &[G::Algebra]) -> G:
     filled(mu, &|i| G::pair(mu, &images[i]))
 }
 
-fn coordinates<V: VectorSpace>(x: &V) -> Vec<V::Scalar> {
+pub(super) fn coordinates<V: VectorSpace>(x: &V) -> Vec<V::Scalar> {
     (0..x.dim()).map(|i| x.get(i)).collect()
 }
 

@@ -1,12 +1,12 @@
 //! The laws that differentiate, by dual numbers and by central differences.
 
-use super::checker::{Checker, difference_tolerance, log_of};
+use super::checker::{Report, difference_tolerance, log_of};
 use super::examples::Examples;
 use super::linear::{filled, scaled, sum, vector_size, zero};
 use super::verdict::{Family, Outcome};
 use crate::{AlgebraOver, Cayley, Exp, Jet, LieGroup, Over, Retraction, Scalar, VectorSpace};
 
-pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
+pub(super) fn check<G: Family>(c: &mut Report, examples: &Examples<G>) -> Outcome {
     let (shape, velocities) = (examples.shape(), &examples.velocities);
     for eta in velocities {
         identity_at_zero::<G, Exp>(c, eta)?;
@@ -22,14 +22,14 @@ pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outco
     Ok(())
 }
 
-fn identity_at_zero<G: LieGroup, R: Retraction>(c: &mut Checker, eta: &G::Algebra) -> Outcome {
+fn identity_at_zero<G: LieGroup, R: Retraction>(c: &mut Report, eta: &G::Algebra) -> Outcome {
     let sides = (&G::d_left::<R>(&zero(eta), eta), eta);
     let case = || format!("{}, eta = {eta:?}", R::NAME);
     c.vectors("dtau_0 eta = eta", &case, sides, vector_size(eta))
 }
 
 fn bracket_is_the_derivative_of_adjoint<G: Family>(
-    c: &mut Checker,
+    c: &mut Report,
     shape: &G,
     xi: &G::Algebra,
     eta: &G::Algebra,
@@ -50,7 +50,7 @@ fn bracket_is_the_derivative_of_adjoint<G: Family>(
 }
 
 fn retraction_laws<G: Family, R: Retraction>(
-    c: &mut Checker,
+    c: &mut Report,
     shape: &G,
     xi: &G::Algebra,
     eta: &G::Algebra,

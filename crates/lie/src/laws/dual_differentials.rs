@@ -1,13 +1,13 @@
 //! The transposes of the retractions' differentials, and the gradients of their inverses in the argument.
 
-use super::checker::{Checker, by_pairing, difference_tolerance};
+use super::checker::{Report, by_pairing, difference_tolerance};
 use super::differentials::{JetOf, central, constant, line, partial, step};
 use super::examples::Examples;
 use super::linear::{scaled, sum, vector_size};
 use super::verdict::{Family, Outcome};
 use crate::{Cayley, Exp, LieGroup, Over, Retraction};
 
-pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
+pub(super) fn check<G: Family>(c: &mut Report, examples: &Examples<G>) -> Outcome {
     for xi in &examples.velocities {
         transposes::<G, Exp>(c, examples, xi)?;
         transposes::<G, Cayley>(c, examples, xi)?;
@@ -22,7 +22,7 @@ pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outco
 }
 
 fn transposes<G: LieGroup, R: Retraction>(
-    c: &mut Checker,
+    c: &mut Report,
     examples: &Examples<G>,
     xi: &G::Algebra,
 ) -> Outcome {
@@ -50,7 +50,7 @@ fn transposes<G: LieGroup, R: Retraction>(
 }
 
 fn gradients<G: Family, R: Retraction>(
-    c: &mut Checker,
+    c: &mut Report,
     examples: &Examples<G>,
     xi: &G::Algebra,
     eta: &G::Algebra,

@@ -1,12 +1,12 @@
 //! The group axioms, the forms that write in place, and the way back to the group.
 
-use super::checker::{Checker, size};
+use super::checker::{Report, size};
 use super::examples::Examples;
 use super::linear::{at_most, generic, zero};
 use super::verdict::{Family, Outcome};
 use crate::{Jet, LieGroup, Over, Scalar, Units, VectorSpace};
 
-pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
+pub(super) fn check<G: Family>(c: &mut Report, examples: &Examples<G>) -> Outcome {
     for g in examples.elements {
         zeros(c, g)?;
         units(c, g)?;
@@ -22,7 +22,7 @@ pub(super) fn check<G: Family>(c: &mut Checker, examples: &Examples<G>) -> Outco
     examples.elements.iter().try_for_each(|g| normalize(c, g))
 }
 
-fn zeros<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
+fn zeros<G: LieGroup>(c: &mut Report, g: &G) -> Outcome {
     let (algebra, dual, case) = (g.zero_algebra(), g.zero_dual(), || format!("g = {g:?}"));
     let sides = (&algebra, &zero(&algebra));
     c.vectors("zero_algebra = 0", &case, sides, 1.0)?;
@@ -33,7 +33,7 @@ fn zeros<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
     c.numbers(formula, &case, (&sides[..1], &sides[1..]), 0.5)
 }
 
-fn units<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
+fn units<G: LieGroup>(c: &mut Report, g: &G) -> Outcome {
     let (e, case, scale) = (g.identity_like(), || format!("g = {g:?}"), size(g).powi(2));
     c.elements("g e = g", &case, (&g.compose(&e), g), scale)?;
     c.elements("e g = g", &case, (&e.compose(g), g), scale)?;
@@ -42,14 +42,14 @@ fn units<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
     c.elements("g^-1 g = e", &case, (&inverse.compose(g), &e), scale)
 }
 
-fn associativity<G: LieGroup>(c: &mut Checker, g: &G, h: &G, k: &G) -> Outcome {
+fn associativity<G: LieGroup>(c: &mut Report, g: &G, h: &G, k: &G) -> Outcome {
     let case = || format!("g = {g:?}, h = {h:?}, k = {k:?}");
     let scale = size(g) * size(h) * size(k);
     let (left, right) = (g.compose(h).compose(k), g.compose(&h.compose(k)));
     c.elements("(g h) k = g (h k)", &case, (&left, &right), scale)
 }
 
-fn in_place<G: LieGroup>(c: &mut Checker, g: &G, h: &G) -> Outcome {
+fn in_place<G: LieGroup>(c: &mut Report, g: &G, h: &G) -> Outcome {
     let (case, product) = (|| format!("g = {g:?}, h = {h:?}"), g.compose(h));
     let mut out = other_than(&product);
     g.compose_into(h, &mut out);
@@ -57,7 +57,7 @@ fn in_place<G: LieGroup>(c: &mut Checker, g: &G, h: &G) -> Outcome {
     c.elements("compose_into = compose", &case, (&out, &product), scale)
 }
 
-fn conversions<G: Family>(c: &mut Checker, g: &G) -> Outcome {
+fn conversions<G: Family>(c: &mut Report, g: &G) -> Outcome {
     let (case, scale) = (|| format!("g = {g:?}"), size(g).powi(2));
     let same = G::convert::<G::Scalar, G::Scalar>(g, |x| x);
     c.elements("convert(g, x -> x) = g", &case, (&same, g), scale)?;
@@ -82,7 +82,7 @@ pub(super) fn other_than<G: LieGroup>(g: &G) -> G {
 /// $\delta^2 = \frac14 \varepsilon$, which is rounding; not normalised, or the wrong way, it is off by $\delta$.
 ///
 /// Where any numbers make an element ($\mathbb{R}^n$), normalising need not do anything.
-fn normalize<G: Family>(c: &mut Checker, g: &G) -> Outcome {
+fn normalize<G: Family>(c: &mut Report, g: &G) -> Outcome {
     let case = || format!("g = {g:?}");
     let normal = normalized(g);
     c.elements("normalize g = g", &case, (&normal, g), size(g).powi(2))?;

@@ -1,13 +1,13 @@
 //! The exponential, the Cayley map, and their inverses.
 
-use super::checker::{Checker, log_of, size, tolerance};
+use super::checker::{Report, log_of, size, tolerance};
 use super::examples::Examples;
 use super::group::other_than;
-use super::linear::{at_most, length, scaled, vector_size, zero};
+use super::linear::{at_most, generic, length, scaled, vector_size, zero};
 use super::verdict::Outcome;
 use crate::{Cayley, Exp, LieGroup, Retraction, Scalar};
 
-pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Outcome {
+pub(super) fn check<G: LieGroup>(c: &mut Report, examples: &Examples<G>) -> Outcome {
     for g in examples.elements {
         inverses_of_an_element(c, g)?;
     }
@@ -22,7 +22,7 @@ pub(super) fn check<G: LieGroup>(c: &mut Checker, examples: &Examples<G>) -> Out
     examples.elements.iter().try_for_each(|g| square_root(c, g))
 }
 
-fn inverses_of_an_element<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
+fn inverses_of_an_element<G: LieGroup>(c: &mut Report, g: &G) -> Outcome {
     let (case, scale) = (|| format!("g = {g:?}"), size(g).powi(2));
     c.elements("exp(log g) = g", &case, (&G::exp(&log_of(g)), g), scale)?;
     let Ok(xi) = g.cayley_inverse() else {
@@ -33,10 +33,13 @@ fn inverses_of_an_element<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
     c.elements("cay(cay^-1 g) = g", &case, (&G::cayley(&xi), g), scale)
 }
 
-fn square_root<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
+fn square_root<G: LieGroup>(c: &mut Report, g: &G) -> Outcome {
     let (case, scale, root) = (|| format!("g = {g:?}"), size(g).powi(2), g.sqrt());
     let sides = (&root.compose(&root), g);
     c.elements("sqrt(g) sqrt(g) = g", &case, sides, scale)?;
+    let mut out = other_than(&root);
+    g.sqrt_into(&mut out);
+    c.elements("sqrt_into = sqrt", &case, (&out, &root), scale)?;
     let Ok(xi) = g.log() else {
         return Ok(());
     };
@@ -45,7 +48,7 @@ fn square_root<G: LieGroup>(c: &mut Checker, g: &G) -> Outcome {
     c.vectors(formula, &case, (&log, &scaled(&xi, 0.5)), scale)
 }
 
-fn one_parameter<G: LieGroup>(c: &mut Checker, shape: &G, xi: &G::Algebra) -> Outcome {
+fn one_parameter<G: LieGroup>(c: &mut Report, shape: &G, xi: &G::Algebra) -> Outcome {
     let (case, scale) = (|| format!("xi = {xi:?}"), vector_size(xi).powi(2));
     let (e, none, minus) = (shape.identity_like(), zero(xi), scaled(xi, -1.0));
     c.elements("exp(0) = e", &case, (&G::exp(&none), &e), 1.0)?;
@@ -63,7 +66,7 @@ fn one_parameter<G: LieGroup>(c: &mut Checker, shape: &G, xi: &G::Algebra) -> Ou
 }
 
 /// Both maps have inverses there, and differ by $O(\xi^3)$: for $|\xi| = \varepsilon^{1/3}$ by rounding.
-fn near_the_identity<G: LieGroup>(c: &mut Checker, xi: &G::Algebra) -> Outcome {
+fn near_the_identity<G: LieGroup>(c: &mut Report, xi: &G::Algebra) -> Outcome {
     let short = at_most(xi, 0.5);
     let case = || format!("xi = {short:?}");
     let formula = "log(exp xi) = xi for |xi| <= 1/2";
@@ -81,7 +84,7 @@ fn near_the_identity<G: LieGroup>(c: &mut Checker, xi: &G::Algebra) -> Outcome {
     c.elements("cay xi = exp xi + O(xi^3)", &case, sides, 1.0)
 }
 
-fn logarithm_is_shortest<G: LieGroup>(c: &mut Checker, xi: &G::Algebra) -> Outcome {
+fn logarithm_is_shortest<G: LieGroup>(c: &mut Report, xi: &G::Algebra) -> Outcome {
     let (case, scale) = (|| format!("xi = {xi:?}"), vector_size(xi).powi(2));
     let g = G::exp(xi);
     let log = log_of(&g);
@@ -93,10 +96,18 @@ fn logarithm_is_shortest<G: LieGroup>(c: &mut Checker, xi: &G::Algebra) -> Outco
     c.numbers("|log(exp xi)| <= |xi|", &case, sides, tolerance)
 }
 
-fn in_place<G: LieGroup, R: Retraction>(c: &mut Checker, element: &G, xi: &G::Algebra) -> Outcome {
+fn in_place<G: LieGroup, R: Retraction>(c: &mut Report, element: &G, xi: &G::Algebra) -> Outcome {
     let case = || format!("{}, xi = {xi:?}", R::NAME);
     let mut out = other_than(element);
     G::retract_into::<R>(xi, &mut out);
     let scale = vector_size(xi).powi(2);
-    c.elements("retract_into = tau", &case, (&out, element), scale)
+    c.elements("retract_into = tau", &case, (&out, element), scale)?;
+    let Ok(expected) = element.retract_inverse::<R>() else {
+        return Ok(());
+    };
+    let (mut back, formula) = (generic(xi, 9.0), "retract_inverse_into = tau^-1");
+    c.exists(formula, &case, element.retract_inverse_into::<R>(&mut back))?;
+    // Near a half turn the chart's coordinates grow without bound, and their rounding with them.
+    let scale = vector_size(&expected).powi(2);
+    c.vectors(formula, &case, (&back, &expected), scale)
 }

@@ -1,32 +1,35 @@
 //! The laws of a vector space: its methods against `get` and `set`.
 
-use super::checker::{Checker, tolerance};
+use super::checker::{Report, coordinates as coordinates_of, tolerance};
 use super::linear::{filled, generic, zero};
 use super::verdict::Outcome;
 use crate::{Scalar, VectorSpace};
 
 /// Checks the methods, starting from vectors filled with other numbers than they must leave.
-pub(super) fn check<V: VectorSpace>(c: &mut Checker, shape: &V) -> Outcome {
+pub(super) fn check<V: VectorSpace>(c: &mut Report, shape: &V) -> Outcome {
     coordinates(c, shape)?;
     slices(c, &generic(shape, 1.5))?;
     combinations(c, &generic(shape, 1.5), &generic(shape, -0.75))?;
     magnitudes(c, &generic(shape, 1.5))
 }
 
-fn coordinates<V: VectorSpace>(c: &mut Checker, shape: &V) -> Outcome {
+fn coordinates<V: VectorSpace>(c: &mut Report, shape: &V) -> Outcome {
     for i in 0..shape.dim() {
         let (mut x, value) = (generic(shape, 1.5), V::Scalar::from_f64(9.0));
-        let mut expected: Vec<_> = (0..x.dim()).map(|j| x.get(j)).collect();
+        let mut expected = coordinates_of(&x);
         x.set(i, value);
         expected[i] = value;
-        let got: Vec<_> = (0..x.dim()).map(|j| x.get(j)).collect();
-        same(c, "set x_i, and x_i alone", (&got, &expected))?;
+        same(
+            c,
+            "set x_i, and x_i alone",
+            (&coordinates_of(&x), &expected),
+        )?;
     }
     Ok(())
 }
 
-fn slices<V: VectorSpace>(c: &mut Checker, x: &V) -> Outcome {
-    let expected: Vec<_> = (0..x.dim()).map(|i| x.get(i)).collect();
+fn slices<V: VectorSpace>(c: &mut Report, x: &V) -> Outcome {
+    let expected = coordinates_of(x);
     let garbage = V::Scalar::from_f64(9.0);
 
     // One number more than needed, which must stay.
@@ -42,7 +45,7 @@ fn slices<V: VectorSpace>(c: &mut Checker, x: &V) -> Outcome {
     same(c, "coordinates(x)_i = x_i", (&x.coordinates(), &expected))
 }
 
-fn combinations<V: VectorSpace>(c: &mut Checker, x: &V, y: &V) -> Outcome {
+fn combinations<V: VectorSpace>(c: &mut Report, x: &V, y: &V) -> Outcome {
     let (a, garbage) = (V::Scalar::from_f64(0.5), V::Scalar::from_f64(9.0));
     let expected = filled(x, &|i| x.get(i) + a * y.get(i));
 
@@ -66,7 +69,7 @@ fn combinations<V: VectorSpace>(c: &mut Checker, x: &V, y: &V) -> Outcome {
     vectors(c, "zero_like = 0", (&x.zero_like(), &zero(x)))
 }
 
-fn magnitudes<V: VectorSpace>(c: &mut Checker, x: &V) -> Outcome {
+fn magnitudes<V: VectorSpace>(c: &mut Report, x: &V) -> Outcome {
     let coordinates = || (0..x.dim()).map(|i| x.get(i).magnitude());
     let squares: f64 = coordinates().map(|a| a * a).sum();
     let largest = coordinates().fold(0.0, f64::max);
@@ -78,11 +81,11 @@ fn magnitudes<V: VectorSpace>(c: &mut Checker, x: &V) -> Outcome {
     c.numbers("max_magnitude = max |x_i|", &case, sides, tolerance)
 }
 
-fn vectors<V: VectorSpace>(c: &mut Checker, formula: &'static str, sides: (&V, &V)) -> Outcome {
+fn vectors<V: VectorSpace>(c: &mut Report, formula: &'static str, sides: (&V, &V)) -> Outcome {
     c.vectors(formula, &|| format!("{:?}", sides.1), sides, 1.0)
 }
 
-fn same<S: Scalar>(c: &mut Checker, formula: &'static str, sides: (&[S], &[S])) -> Outcome {
+fn same<S: Scalar>(c: &mut Report, formula: &'static str, sides: (&[S], &[S])) -> Outcome {
     let case = || format!("{:?}", sides.1);
     c.numbers(formula, &case, sides, tolerance::<S>(1.0))
 }

@@ -1,20 +1,10 @@
-//! What a check did, or why a group did not pass.
+//! Why a check did not pass.
 
 use thiserror::Error;
 
 use crate::LieGroup;
 
-/// What [`check`](super::check) did.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Report {
-    /// Numbers compared.
-    pub comparisons: usize,
-    /// The largest ratio of a difference to its tolerance; below one.
-    pub worst: f64,
-}
-
-/// Why a group did not pass.
+/// Why a check did not pass.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LawError {

@@ -145,6 +145,8 @@ const INVERSE_COADJOINT_INTO: u8 = 34;
 const ADVANCE_BESIDE: u8 = 35;
 const CHART_END: u8 = 36;
 const CHART_RATES: u8 = 37;
+const ROOT_INTO: u8 = 38;
+const CHART_INTO: u8 = 39;
 /// Mistakes of the algebra from here on, those of the dual from [`DUAL`] on.
 const ALGEBRA: u8 = 40;
 const DUAL: u8 = 60;
@@ -456,6 +458,18 @@ impl<S: Scalar> LieGroup for Slow<S> {
             _ => *out = Self::retract::<R>(xi),
         }
     }
+    fn retract_inverse_into<R: Retraction>(&self, out: &mut Twist<S>) -> Result<(), OutsideChart> {
+        let xi = self.retract_inverse::<R>()?;
+        if mistake() != CHART_INTO {
+            *out = xi;
+        }
+        Ok(())
+    }
+    fn sqrt_into(&self, out: &mut Self) {
+        if mistake() != ROOT_INTO {
+            *out = self.sqrt();
+        }
+    }
     fn convert_into<A: Scalar, B: Scalar>(
         g: &Slow<A>,
         f: impl Fn(A) -> B + Copy,
@@ -594,6 +608,8 @@ fn methods_that_write_nothing_are_caught_and_named() {
     assert_eq!(broken_law(INVERSE_INTO), "inverse_into = inverse");
     assert_eq!(broken_law_of::<Exp>(EXP_INTO), "retract_into = tau");
     assert_eq!(broken_law_of::<Cayley>(CAYLEY_INTO), "retract_into = tau");
+    assert_eq!(broken_law(ROOT_INTO), "sqrt_into = sqrt");
+    assert_eq!(broken_law(CHART_INTO), "retract_inverse_into = tau^-1");
 }
 
 macro_rules! vector_mistakes_are_caught {

@@ -168,14 +168,14 @@ fn solved(mut method: Method<SO3>, top: &Top, plan: Plan) -> Result<laws::Report
 fn verdict(law: Result<laws::Report, LawError>) -> String {
     match law {
         Ok(report) => format!("passed, {} comparisons", report.comparisons),
-        Err(LawError::Violated {
+        Err(LawError::Law(lie::laws::LawError::Violated {
             formula,
             component,
             left,
             right,
             tolerance,
             ..
-        }) => format!(
+        })) => format!(
             "{formula}: component {component} is {left:.6e} and {right:.6e}, tolerance {tolerance:.0e}"
         ),
         Err(other) => other.to_string(),

@@ -203,13 +203,13 @@ fn ellipsoid_in_a_fluid() {
 #[track_caller]
 fn caught(verdict: Result<laws::Report, LawError>, law: &str) {
     match verdict {
-        Err(LawError::Violated {
+        Err(LawError::Law(lie::laws::LawError::Violated {
             formula,
             left,
             right,
             tolerance,
             ..
-        }) => {
+        })) => {
             println!("{formula}: {left:.3e} and {right:.3e}, tolerance {tolerance:.1e}");
             assert_eq!(formula, law);
         }
