@@ -93,8 +93,8 @@ impl SceneBody {
         }
     }
 
-    /// A body of this own mass, kg, if it is known, and of these totals, as [`total_mass`](Self::total_mass), [`total_inertia`](Self::total_inertia) and
-    /// [`net_mass`](Self::net_mass): at rest, and aligned with the reference frame.
+    /// A body of this own mass, kg, if it is known, and of these totals, as [`total_mass`](Self::total_mass),
+    /// [`total_inertia`](Self::total_inertia) and [`net_mass`](Self::net_mass): at rest, and aligned with the reference frame.
     pub fn given(
         name: &str,
         shape: Option<Ellipsoid>,

@@ -137,7 +137,7 @@ pub struct Outcome {
     pub refused_at: Option<State<Configuration>>,
     /// Whether the time was over before the run was.
     #[serde(skip)]
-    is_cut_off: bool,
+    pub(super) is_cut_off: bool,
 }
 
 fn told<S: Serializer>(failure: &Option<Failure>, serializer: S) -> Result<S::Ok, S::Error> {
