@@ -5,3 +5,4 @@ mod by_duals;
 mod strokes;
 mod trees;
 mod vectors;
+mod wrong;
