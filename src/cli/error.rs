@@ -60,7 +60,10 @@ pub enum CliError {
 /// The option that an error is of.
 fn option(error: &SimError) -> &'static str {
     match error {
-        SimError::Pilot(_) => "--accuracy: ",
+        SimError::Pilot(_)
+        | SimError::NoAccuracy { .. }
+        | SimError::AccuracyOutOfReach { .. }
+        | SimError::Rehearsal { .. } => "--accuracy: ",
         _ => "",
     }
 }
@@ -88,7 +91,11 @@ impl CliError {
                 USAGE
             }
             Self::Sim(error) => match error {
-                SimError::Step { .. } | SimError::NotFinite { .. } | SimError::Pilot(_) => FAILURE,
+                SimError::Step { .. }
+                | SimError::NotFinite { .. }
+                | SimError::Pilot(_)
+                | SimError::AccuracyOutOfReach { .. }
+                | SimError::Rehearsal { .. } => FAILURE,
                 _ => USAGE,
             },
             #[cfg(feature = "chart")]

@@ -258,6 +258,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             report: StepReport {
                 iterations,
                 residual,
+                evaluations: 0,
             },
             at,
             turns: 0,
@@ -348,6 +349,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             report: StepReport {
                 iterations,
                 residual,
+                evaluations: 0,
             },
             at: End::Solved,
             turns,
