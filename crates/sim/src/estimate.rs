@@ -8,6 +8,9 @@ use crate::companion::{Companion, next_look};
 use crate::distance::distance;
 use crate::method::BoxedIntegrator;
 
+/// Differences that grow by less, in steps twice as long, are not those of any order.
+const HARDLY: f64 = 1.5;
+
 /// Goes along with a run.
 pub(crate) struct Estimator {
     order: u32,
@@ -60,16 +63,19 @@ impl Estimator {
 
     /// The largest error so far, rad and m; `None` where the first companion was left behind.
     ///
-    /// With the order $p$ the differences are $d_2 = 2^p d_1$, and the error is $d_1 / (2^p - 1)$. Where their ratio is less, the order is
-    /// not seen, and the error is taken to be $d_1 / (d_2 / d_1 - 1)$, or $d_1$ at most.
+    /// With the order $p$ the differences are $d_2 = 2^p d_1$, and the error is $d_1 / (2^p - 1)$. Where they grow by less, the error is
+    /// $d_1 / (d_2 / d_1 - 1)$, and where they hardly grow, it may be as large as both. Where they grow by more, $d_1$ is small by luck, and
+    /// $d_2 / 2^p$ takes its place. Without the second companion the order is not seen, and the error is $d_1$.
     pub(crate) fn error(&self) -> Option<f64> {
         self.companions[0].as_ref()?;
         let [near, far] = self.worst;
-        let ratio = match &self.companions[1] {
-            Some(_) if near > 0.0 => far / near,
-            _ => 2.0,
-        };
-        Some(near / (ratio.clamp(2.0, 2.0_f64.powi(self.order as i32).max(2.0)) - 1.0))
+        let promised = 2.0_f64.powi(self.order as i32);
+        let ratio = far / near;
+        Some(match &self.companions[1] {
+            None => near,
+            Some(_) if far <= HARDLY * near => near + far,
+            Some(_) => near.max(far / promised) / (ratio.min(promised) - 1.0),
+        })
     }
 
     /// The steps that the companions took.

@@ -12,8 +12,6 @@ const MOST: u32 = 16;
 const FEWEST: u32 = 10;
 /// Steps, at most: what comes after is not seen.
 const LONGEST: u32 = 20_000;
-/// The rough run goes at least so far, s, so that what is found does not depend on short runs' ends.
-const SHORTEST_RUN: f64 = 100.0;
 
 /// What a rough run has found.
 pub(crate) struct Scout<M: Model> {
@@ -28,9 +26,9 @@ pub(crate) struct Scout<M: Model> {
 impl<M: Model> Scout<M> {
     /// Goes from `start` for `until` seconds, in steps of Gauss collocation as long as its sweeps contract well.
     pub(crate) fn run(model: &M, start: &State<M::Group>, until: f64) -> Self {
-        let gauss = Gauss::with_stages(model.clone(), STAGES).map(|g| g.with_tolerance(TOLERANCE));
+        let gauss = Gauss::with_stages(model.clone(), STAGES)
+            .map(|g| g.with_tolerance(TOLERANCE).by_sweeps_only());
         let mut integrator = gauss.expect("so many stages");
-        let until = until.max(SHORTEST_RUN);
         let (mut state, mut h, mut is_limited) = (start.clone(), 0.125 * until, false);
         let mut found = Self {
             step: None,

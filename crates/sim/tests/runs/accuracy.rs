@@ -92,8 +92,9 @@ proptest! {
         digits in 2.0_f64..8.0,
         decades in 1.0_f64..3.0,
     ) {
-        let accuracy = 10.0_f64.powf(-digits);
-        prop_assert!(error(Top { c, omega }, accuracy, 10.0_f64.powf(decades)) <= 2.0 * accuracy);
+        let (accuracy, top) = (10.0_f64.powf(-digits), Top { c, omega });
+        let error = error(top, accuracy, 10.0_f64.powf(decades));
+        prop_assert!(error <= 2.0 * accuracy);
     }
 }
 

@@ -133,10 +133,10 @@ fn a_default_step_follows_from_the_scene() {
 #[test]
 fn evaluations_of_newtons_matrices_are_counted() {
     let evaluations = |step| {
-        let method: Method = "gauss-8".parse().unwrap();
+        let method: Method = "gauss-4".parse().unwrap();
         let plan = Plan {
-            choice: of("gauss-8", Some(step)),
-            until: 10.0,
+            choice: of("gauss-4", Some(step)),
+            until: 4.0,
             ..Plan::default()
         };
         let report = report("fish-chain", plan);
@@ -145,7 +145,7 @@ fn evaluations_of_newtons_matrices_are_counted() {
         (report.evaluations_per_step_mean, of_sweeps)
     };
     let (all, sweeps) = evaluations(0.1);
-    assert!((all - sweeps).abs() < 1e-9 * all);
-    let (all, sweeps) = evaluations(1.0);
+    assert!((all - sweeps).abs() < 1e-9 * all, "{all} {sweeps}");
+    let (all, sweeps) = evaluations(0.4);
     assert!(all > 2.0 * sweeps, "{all} {sweeps}");
 }

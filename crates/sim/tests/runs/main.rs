@@ -17,7 +17,7 @@ fn paper() -> Scene {
 /// A scene of the collection.
 fn scene(name: &str) -> Scene {
     let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    Scene::load(scenes.join(name).with_extension("toml")).unwrap()
+    Scene::load(&scenes.join(name).with_extension("toml")).unwrap()
 }
 
 /// A chain in a vacuum that drifts and falls: its states depend on the time.
