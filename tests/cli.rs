@@ -796,10 +796,11 @@ fn the_motion_is_the_same_without_reductions() {
     let directory = directory();
     // On another root lgvi is another method, by its own error.
     let accurate = ["--method", "gauss-8", "--step", "0.05"].as_slice();
+    let papers = ["--method", "lgvi", "--step", "0.001"].as_slice();
     let scenes = [
-        ("fish-chain", [].as_slice()),
-        ("one-ellipsoid", &[]),
-        ("dry-chain", &[]),
+        ("fish-chain", papers),
+        ("one-ellipsoid", papers),
+        ("dry-chain", papers),
         ("planar-fish", accurate),
     ];
     for (name, method) in scenes {
@@ -824,6 +825,75 @@ fn the_motion_is_the_same_without_reductions() {
         for (a, b) in reduced.1.iter().zip(&full.1) {
             assert!((a - b).abs() < 1e-9, "{name}: {a} {b}");
         }
+    }
+}
+
+#[test]
+fn another_scene_than_the_papers_is_run_at_an_accuracy() {
+    let directory = directory();
+    let run = |args: &[&str]| {
+        let args = [&["run", "--until", "5"], args].concat();
+        let output = lgvi(directory.path(), &args);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        text(&output.stdout).to_owned()
+    };
+    let (papers, other) = (shipped("fish-chain"), shipped("one-ellipsoid"));
+    for args in [&[][..], &[papers.as_str()]] {
+        let summary = run(args);
+        assert!(
+            summary.contains("0.001 s, the method's default"),
+            "{summary}"
+        );
+        assert!(
+            summary.contains("not estimated; --estimate does"),
+            "{summary}"
+        );
+    }
+    let summary = run(&[&other]);
+    for words in [
+        "1e-6 the default for this scene",
+        "more steps",
+        "--method lgvi --step 0.001",
+    ] {
+        assert!(summary.contains(words), "{words}: {summary}");
+    }
+    let summary = run(&[&other, "--method", "lgvi", "--step", "0.01", "--estimate"]);
+    assert!(
+        summary.contains("by steps of twice and four times"),
+        "{summary}"
+    );
+    let summary = run(&[&other, "--accuracy", "1e-4", "--full"]);
+    assert!(summary.contains("1e-4 asked for"), "{summary}");
+}
+
+#[test]
+fn what_is_no_accuracy_is_refused() {
+    for value in ["0", "-1", "nan", "inf", "2e2", "1.5"] {
+        fails(
+            &["run", "--accuracy", value, "--out", "a.csv"],
+            2,
+            &["--accuracy", "pi"],
+        );
+    }
+    let scene = shipped("hard/one-body");
+    let args = ["run", &scene, "--accuracy", "1e-6", "--out", "a.csv"];
+    fails(
+        &args,
+        1,
+        &["--accuracy", "out of reach", "holds up to t =", "run to"],
+    );
+}
+
+/// The methods' own steps suit the paper's scene: these two were refused.
+#[test]
+fn a_default_step_suits_the_scene() {
+    let directory = directory();
+    for (name, method) in [("eel", "gauss-8"), ("branching-robot", "gauss-4")] {
+        let args = ["run", &shipped(name), "--until", "3", "--method", method];
+        let output = lgvi(directory.path(), &args);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let summary = text(&output.stdout);
+        assert!(summary.contains("shortened for this scene"), "{summary}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Values of options.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use sim::{Method, UnknownMethod};
+use sim::{LARGEST_ACCURACY, Method, UnknownMethod};
 use thiserror::Error;
 
 /// Why a value was refused.
@@ -9,7 +9,9 @@ use thiserror::Error;
 pub enum ValueError {
     #[error("expected a finite number > 0, in seconds")]
     Seconds,
-    #[error("expected a finite number > 0, such as 1e-9")]
+    #[error(
+        "expected a number > 0 and <= {LARGEST_ACCURACY}, such as 1e-9; an attitude is never more than pi off"
+    )]
     Accuracy,
     #[error("expected a whole number >= 1")]
     Count,
@@ -25,9 +27,12 @@ pub fn seconds(text: &str) -> Result<f64, ValueError> {
     valid.then_some(value).ok_or(ValueError::Seconds)
 }
 
-/// An error to stay below: finite and positive.
+/// An error to stay below: positive, and one that can be exceeded.
 pub fn accuracy(text: &str) -> Result<f64, ValueError> {
-    seconds(text).map_err(|_| ValueError::Accuracy)
+    let value = seconds(text)
+        .ok()
+        .filter(|value| *value <= LARGEST_ACCURACY);
+    value.ok_or(ValueError::Accuracy)
 }
 
 /// How many: at least one.

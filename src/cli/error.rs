@@ -70,7 +70,10 @@ pub enum CliError {
 /// The option that an error is of.
 fn option(error: &SimError) -> &'static str {
     match error {
-        SimError::Pilot(_) => "--accuracy: ",
+        SimError::Pilot(_)
+        | SimError::NoAccuracy { .. }
+        | SimError::AccuracyOutOfReach { .. }
+        | SimError::Rehearsal { .. } => "--accuracy: ",
         _ => "",
     }
 }
@@ -98,7 +101,11 @@ impl CliError {
             Self::OutputIsScene(_) | Self::OutputIsDash | Self::OutputFormat(_) => USAGE,
             Self::Output { source, .. } if source.is_of_the_path() => USAGE,
             Self::Sim(error) => match error {
-                SimError::Step { .. } | SimError::NotFinite { .. } | SimError::Pilot(_) => FAILURE,
+                SimError::Step { .. }
+                | SimError::NotFinite { .. }
+                | SimError::Pilot(_)
+                | SimError::AccuracyOutOfReach { .. }
+                | SimError::Rehearsal { .. } => FAILURE,
                 _ => USAGE,
             },
             #[cfg(feature = "chart")]

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use articulated_fluid::scene;
 use sim::file::{AtomicFile, CompleteFile, FileError};
 use sim::table::{COLUMNS, Column};
-use sim::{Choice, Frame, Method, Plan, Schedule, Simulation, Table};
+use sim::{Choice, Frame, Method, Plan, Schedule, SimError, Simulation, Table};
 
 use super::args;
 use super::error::CliError;
@@ -17,7 +17,7 @@ use super::output;
 use super::print;
 use super::progress;
 use super::scene::{Loaded, load};
-use super::summary::Summary;
+use super::summary::{Origin, Summary};
 
 /// Simulate a scene, and tell how well the motion's constants were kept.
 ///
@@ -32,15 +32,18 @@ pub struct Args {
     /// Simulated time, in seconds
     #[arg(long, value_name = "SECONDS", default_value = "100", value_parser = args::seconds, allow_hyphen_values = true)]
     until: f64,
-    /// The integrator; see `lgvi methods`
-    #[arg(long, value_name = "NAME", default_value_t = Method::default(), value_parser = args::method())]
-    method: Method,
-    /// Step size, in seconds; a little shorter where whole steps would not end at --until [default: the method's, 0.001 for lgvi]
+    /// The integrator; see `lgvi methods` [default: lgvi for the paper's scene or with a --step; else as --accuracy 1e-6 chooses]
+    #[arg(long, value_name = "NAME", value_parser = args::method())]
+    method: Option<Method>,
+    /// Step size, in seconds; a little shorter where whole steps would not end at --until [default: the method's, as the scene's motion asks for]
     #[arg(long, value_name = "SECONDS", value_parser = args::seconds, allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Let a short pilot run choose Gauss collocation's stages and step: the attitudes' error, in radians, and the position's, in metres, by the end
-    #[arg(long, value_name = "ERROR", value_parser = args::accuracy, allow_hyphen_values = true, conflicts_with_all = ["method", "step", "full"])]
+    /// Let a rehearsal choose Gauss collocation's stages and step: the attitudes' error, in radians, and the position's, in metres, until the end
+    #[arg(long, value_name = "ERROR", value_parser = args::accuracy, allow_hyphen_values = true, conflicts_with_all = ["method", "step"])]
     accuracy: Option<f64>,
+    /// Estimate the trajectory's error by runs in steps twice and four times as long; needless with --accuracy
+    #[arg(long)]
+    estimate: bool,
     /// Write the trajectory to this CSV file: whole, or not at all
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
@@ -62,26 +65,52 @@ pub struct Args {
 }
 
 impl Args {
-    fn plan(&self) -> Plan {
-        let (method, step) = (self.method, self.step);
+    fn plan(&self, choice: Choice) -> Plan {
         let steps = Schedule::Steps(self.every);
         Plan {
-            choice: self
-                .accuracy
-                .map_or(Choice::Method { method, step }, Choice::Accuracy),
+            choice,
             until: self.until,
             schedule: self.every_seconds.map_or(steps, Schedule::Seconds),
             full: self.full,
+            estimate: self.estimate,
         }
     }
 
-    /// The run at t = 0, after the pilot run of an accuracy.
+    /// What was asked for; none where that is left open.
+    fn choice(&self) -> Option<Choice> {
+        let (method, step) = (self.method, self.step);
+        let fixed = || Choice::Method {
+            method: method.unwrap_or_default(),
+            step,
+        };
+        let is_fixed = method.is_some() || step.is_some();
+        let accuracy = self.accuracy.map(Choice::Accuracy);
+        accuracy.or_else(|| is_fixed.then(fixed))
+    }
+
+    /// The run at t = 0, after the rehearsals of an accuracy.
     fn simulation(&self, loaded: &Loaded) -> Result<Simulation, CliError> {
-        let waiting = |_| progress::waiting("choosing stages and step");
-        let _spinner = self.accuracy.map(waiting);
-        Ok(Simulation::new(&loaded.scene, &self.plan())?)
+        let _spinner = progress::waiting("choosing stages and step");
+        let begin = |choice| Simulation::new(&loaded.scene, &self.plan(choice));
+        match self.choice() {
+            Some(choice) => Ok(begin(choice)?),
+            None if loaded.is_papers() => Ok(begin(Choice::default())?),
+            None => match begin(Choice::Accuracy(DEFAULT_ACCURACY)) {
+                Err(error @ SimError::AccuracyOutOfReach { .. }) => {
+                    print::warning(&format!("{error}; taking {FALLBACK} instead"));
+                    let method: Result<Method, _> = FALLBACK.parse();
+                    Ok(begin(method.unwrap_or_default().into())?)
+                }
+                begun => Ok(begun?),
+            },
+        }
     }
 }
+
+/// What a scene other than the paper's is run at where nothing is asked for, rad and m.
+const DEFAULT_ACCURACY: f64 = 1e-6;
+/// What it is run with where rounding grows beyond that.
+const FALLBACK: &str = "gauss-6";
 
 fn after_long_help() -> String {
     let columns: Vec<_> = COLUMNS
@@ -123,9 +152,15 @@ Nothing acts but weight, buoyancy and elastic joints: the first body floats free
 it is elastic, where both frames are aligned, and no scene has a fixed base, a hinge, a motor or damping. Forces take the
 library. Under a net weight the bodies speed up, and the energy error grows with their speed: that of lgvi in proportion
 to step and time.
-With --accuracy the step is found before the run and then fixed: one that follows the motion would give up the symplectic
-form, and the bounded energy error with it. The error it is chosen by is an estimate, by a run of shorter steps; no bound.
-A method's default step suits the motion of the built-in scene; a livelier one needs a shorter --step.
+With --accuracy stages and step are found before the run and then fixed: a step that follows the motion would give up the
+symplectic form, and the bounded energy error with it. A rehearsal goes to --until beside a second run in steps a quarter longer.
+Their difference is the estimated error: no bound. Where it is too large the rehearsal begins again with shorter steps, and
+where rounding leaves no step, the run is refused. All of it takes at least twice as many steps again as the run.
+Without --method, --step and --accuracy the paper's scene is run by lgvi in steps of 0.001 s, and any other at an accuracy of 1e-6;
+`--method lgvi --step 0.001` takes the paper's for any scene. A method's default step is the one of `lgvi methods`, doubled or
+halved as a rough run finds the scene slower or faster than the paper's, and halved where the first steps are not solved.
+The errors of energy, momenta and rotations are over all steps, whatever is sampled. A small one tells little of the trajectory:
+--estimate does, by two more runs.
 
 Exit codes:
   0    done
@@ -155,7 +190,12 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let simulation = simulate(simulation, rows, &interrupt)?;
     let csv = csv.map(Csv::complete).transpose()?;
     let is_default = args.step.is_none() && args.accuracy.is_none();
-    let summary = Summary::new(&simulation, &loaded.file, args.out.as_deref(), is_default);
+    let is_chosen = args.choice().is_none() && !loaded.is_papers();
+    let origin = Origin {
+        step_is_default: is_default,
+        is_chosen,
+    };
+    let summary = Summary::new(&simulation, &loaded.file, args.out.as_deref(), origin);
     print::stdout(&match args.json {
         true => print::json(&summary)?,
         false => summary.text(),

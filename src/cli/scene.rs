@@ -34,6 +34,14 @@ impl Loaded {
     }
 }
 
+impl Loaded {
+    /// Whether it is the paper's scene, from a file or built in.
+    pub fn is_papers(&self) -> bool {
+        let papers = Scene::parse(BUILT_IN, BUILT_IN_NAME);
+        papers.is_ok_and(|papers| papers == self.scene)
+    }
+}
+
 /// Loads the scene in the file `path`, or the one that is built in.
 pub fn load(path: Option<&Path>) -> Result<Loaded, CliError> {
     let (scene, file) = match path {

@@ -21,7 +21,17 @@ pub struct Summary<'a> {
     #[serde(skip)]
     pub step_is_adjusted: bool,
     #[serde(skip)]
+    pub step_of_method: f64,
+    #[serde(skip)]
+    pub origin: Origin,
+}
+
+/// What was left open by a user.
+#[derive(Clone, Copy)]
+pub struct Origin {
     pub step_is_default: bool,
+    /// Method, step and accuracy, of a scene that is not the paper's.
+    pub is_chosen: bool,
 }
 
 impl<'a> Summary<'a> {
@@ -29,7 +39,7 @@ impl<'a> Summary<'a> {
         simulation: &Simulation,
         scene: &'a str,
         csv: Option<&Path>,
-        step_is_default: bool,
+        origin: Origin,
     ) -> Self {
         Self {
             scene,
@@ -37,7 +47,8 @@ impl<'a> Summary<'a> {
             csv: csv.map(|path| path.display().to_string()),
             family: simulation.method().family(),
             step_is_adjusted: simulation.clock().is_adjusted(),
-            step_is_default,
+            step_of_method: simulation.method().default_step(),
+            origin,
         }
     }
 
@@ -83,23 +94,46 @@ impl<'a> Summary<'a> {
             ),
             ("samples", self.samples()),
         ]);
-        if let Some(accuracy) = self.accuracy() {
-            rows.push(("accuracy", accuracy));
-        }
+        rows.push(self.error());
         if let Some(path) = &self.csv {
             rows.push(("CSV", one_line(path)));
         }
         rows
     }
 
-    /// What was asked for, and how far runs of shorter steps were away.
-    fn accuracy(&self) -> Option<String> {
-        let asked = self.report.accuracy_asked?;
-        let estimate = self.report.accuracy_estimate?;
-        let horizon = decimal(self.report.accuracy_horizon_seconds?);
-        Some(format!(
-            "{asked:e} asked for; estimated error {estimate:.1e} rad or m over {horizon} s, against shorter steps"
-        ))
+    /// What is known of the trajectory's error, and what that has cost.
+    fn error(&self) -> (&'static str, String) {
+        let report = &self.report;
+        let more = |steps: u64| {
+            let times = steps as f64 / report.steps.max(1) as f64;
+            format!("{steps} more steps ({times:.1} times the run's)")
+        };
+        let accuracy = report.accuracy_asked.zip(report.accuracy_estimate);
+        if let Some((asked, estimate)) = accuracy {
+            let checked = more(report.accuracy_check_steps.unwrap_or(0));
+            let (chosen, papers) = match self.origin.is_chosen {
+                true => (
+                    "the default for this scene",
+                    "; the paper's is --method lgvi --step 0.001",
+                ),
+                false => ("asked for", ""),
+            };
+            return (
+                "accuracy",
+                format!(
+                    "{asked:e} {chosen}; {estimate:.1e} rad or m apart from longer steps until the end; {checked}{papers}"
+                ),
+            );
+        }
+        let told = match (report.estimate_steps, report.trajectory_error_estimate) {
+            (None, _) => "not estimated; --estimate does".to_owned(),
+            (Some(_), None) => "unknown: steps twice as long are not solved".to_owned(),
+            (Some(steps), Some(error)) => {
+                let steps = more(steps);
+                format!("{error:.1e} rad or m by steps of twice and four times the size; {steps}")
+            }
+        };
+        ("trajectory error", told)
     }
 
     fn quality(&self) -> Vec<(&'static str, String)> {
@@ -125,9 +159,10 @@ impl<'a> Summary<'a> {
             (
                 "energy error, worst",
                 format!(
-                    "{} J (relative to the kinetic {})",
+                    "{} J ({} of the run's largest kinetic energy, {} J)",
                     scientific(report.energy_error_max_joules),
-                    optional(report.energy_error_max_relative)
+                    optional(report.energy_error_max_relative),
+                    scientific(report.energy_kinetic_max_joules)
                 ),
             ),
             (
@@ -205,11 +240,16 @@ impl<'a> Summary<'a> {
         let step = decimal(self.report.step_seconds);
         let asked = decimal(self.report.step_asked_seconds);
         let until = decimal(self.report.until_seconds);
-        let instead = match (self.step_is_adjusted, self.step_is_default) {
+        let default = match self.report.step_asked_seconds / self.step_of_method {
+            1.0 => "the method's default",
+            longer if longer > 1.0 => "the method's default, longer for this scene",
+            _ => "the method's default, shortened for this scene",
+        };
+        let instead = match (self.step_is_adjusted, self.origin.step_is_default) {
             _ if self.report.accuracy_asked.is_some() => {
                 return format!("{step} s, chosen for the accuracy");
             }
-            (false, true) => return format!("{step} s, the method's default"),
+            (false, true) => return format!("{step} s, {default}"),
             (false, false) => return format!("{step} s"),
             (true, true) => format!("the default {asked} s"),
             (true, false) => format!("{asked} s as asked"),

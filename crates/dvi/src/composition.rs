@@ -174,6 +174,7 @@ impl<L: DiscreteLagrangian> Composition<L> {
         let mut total = StepReport::default();
         let mut add = |report: StepReport| {
             total.iterations += report.iterations;
+            total.evaluations += report.evaluations;
             total.residual = total.residual.max(report.residual);
         };
         let solved = self.parts.iter_mut().try_for_each(|part| {

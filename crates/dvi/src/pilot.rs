@@ -1,5 +1,7 @@
 //! Stages and step of Gauss collocation for a wanted accuracy, found by trying.
 
+use core::cell::Cell;
+
 use lie::VectorSpace;
 use thiserror::Error;
 
@@ -66,6 +68,8 @@ pub struct Pilot {
     pub estimate: f64,
     /// How far the two were compared, s: the whole duration, where that is not too long.
     pub horizon: f64,
+    /// The steps that all trials took.
+    pub steps: u64,
 }
 
 /// No method was found.
@@ -83,7 +87,7 @@ pub enum PilotError {
     /// Two runs of ever shorter steps do not agree as well as was asked for.
     #[error(
         "an accuracy of {accuracy:e} over {horizon} s is out of reach: the finest runs differ by {best:.1e}; \
-         ask for {:.0e}, or for a shorter time", 20.0 * best
+         ask for {}a shorter time", less(20.0 * best)
     )]
     OutOfReach {
         /// As asked for.
@@ -101,6 +105,14 @@ pub enum PilotError {
         /// Why.
         source: StepError,
     },
+}
+
+/// An accuracy to ask for, if it is one: attitudes are never more than $\pi$ apart.
+fn less(accuracy: f64) -> String {
+    match accuracy < 1.0 {
+        true => format!("{accuracy:.0e}, or for "),
+        false => String::new(),
+    }
 }
 
 impl Pilot {
@@ -126,6 +138,7 @@ impl Pilot {
             system,
             start,
             accuracy,
+            spent: Cell::new(0),
         };
         let (coarse, horizon) = trials.first(duration)?;
         let (fine, reference) = trials.reference(coarse, horizon)?;
@@ -150,6 +163,7 @@ impl Pilot {
             tolerance: chosen.tolerance,
             estimate: chosen.error,
             horizon,
+            steps: trials.spent.get(),
         })
     }
 
@@ -177,6 +191,8 @@ struct Trials<'a, C: ContinuousSystem> {
     system: &'a C,
     start: &'a State<C::Group>,
     accuracy: f64,
+    /// Steps of all runs.
+    spent: Cell<u64>,
 }
 
 /// States at the samples, and sweeps.
@@ -307,6 +323,7 @@ impl<C: ContinuousSystem + Clone + 'static> Trials<'_, C> {
         let mut states = Vec::with_capacity(SAMPLES);
         for _ in 0..SAMPLES {
             for _ in 0..steps {
+                self.spent.update(|steps| steps + 1);
                 sweeps += u64::from(integrator.step(&mut state, h)?.iterations);
             }
             states.push(state.clone());

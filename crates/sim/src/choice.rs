@@ -1,9 +1,12 @@
-//! What steps a scene: a method, or what a pilot run finds for an accuracy.
+//! What steps a scene: a method, or what is found for an accuracy.
 
-use articulated_fluid::{Configuration, Smallest};
-use dvi::{Pilot, PilotError};
+use articulated_fluid::{ArticulatedBody, Configuration, Scene, Smallest};
+use dvi::{Gauss, Integrator, Pilot, PilotError, State};
 
+use crate::accuracy::{Candidate, Checked, Search, check_accuracy};
+use crate::error::{SimError, positive};
 use crate::method::{BoxedIntegrator, Method, Model};
+use crate::scout::Scout;
 
 /// What is to step a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,10 +15,15 @@ pub enum Choice {
     Method {
         /// Which.
         method: Method,
-        /// The longest step to take, s; unless given, the method's [default](Method::default_step).
+        /// The longest step to take, s; unless given, the method's [default](Method::default_step), by a power of two longer or
+        /// shorter as the scene moves.
         step: Option<f64>,
     },
-    /// Gauss collocation with the stages and the step that a [pilot run](Pilot) finds for this error by the end, rad and m.
+    /// Gauss collocation with the stages and the step that keep this error to the end, rad and m.
+    ///
+    /// A [pilot run](Pilot) of the fastest part of the motion gives a first guess. A rehearsal of the whole run, beside a companion in
+    /// longer steps, then checks it; where the two part too far, it begins again with shorter steps. So the run itself takes the steps of
+    /// a rehearsal that has kept the accuracy to the end, and no frame is ever taken back.
     Accuracy(f64),
 }
 
@@ -31,44 +39,6 @@ impl From<Method> for Choice {
     }
 }
 
-impl Choice {
-    /// What it comes to for the first `duration` seconds of a scene.
-    ///
-    /// # Errors
-    /// [`PilotError`] of an accuracy.
-    ///
-    /// ```
-    /// use articulated_fluid::{Scene, scene};
-    /// use sim::Choice;
-    ///
-    /// let smallest = Scene::parse(scene::EXAMPLE, "example.toml")?.smallest()?;
-    /// let chosen = Choice::Accuracy(1e-6).resolve(&smallest, 1.0)?;
-    /// let pilot = chosen.pilot.expect("an accuracy takes a pilot run");
-    /// assert!(pilot.estimate <= 1e-6 && pilot.horizon == 1.0);
-    /// let integrator = chosen.integrator_of_smallest(&smallest);
-    /// assert_eq!(integrator.order(), chosen.method.order());
-    /// # Ok::<(), Box<dyn core::error::Error>>(())
-    /// ```
-    pub fn resolve(self, smallest: &Smallest, duration: f64) -> Result<Chosen, PilotError> {
-        match self {
-            Self::Method { method, step } => Ok(Chosen {
-                method,
-                step: step.unwrap_or_else(|| method.default_step()),
-                pilot: None,
-            }),
-            Self::Accuracy(accuracy) => pilot(smallest, duration, accuracy).map(Chosen::from),
-        }
-    }
-}
-
-fn pilot(smallest: &Smallest, duration: f64, accuracy: f64) -> Result<Pilot, PilotError> {
-    let start = &smallest.start;
-    match &smallest.plane {
-        None => Pilot::run(&smallest.model, start, duration, accuracy),
-        Some(plane) => Pilot::run(&plane.model(), &plane.project(start), duration, accuracy),
-    }
-}
-
 /// What a [`Choice`] has come to for a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chosen {
@@ -76,35 +46,23 @@ pub struct Chosen {
     pub method: Method,
     /// The longest step to take, s.
     pub step: f64,
-    /// What a pilot run has found, where one was made.
-    pub pilot: Option<Pilot>,
-}
-
-impl From<Pilot> for Chosen {
-    fn from(pilot: Pilot) -> Self {
-        // A pilot tries no other numbers of stages than there are methods of.
-        let method = u32::try_from(pilot.stages).ok().and_then(Method::gauss);
-        Self {
-            method: method.unwrap_or_default(),
-            step: pilot.h,
-            pilot: Some(pilot),
-        }
-    }
+    /// What was found of an accuracy.
+    pub checked: Option<Checked>,
 }
 
 impl Chosen {
     /// The integrator of a model.
     pub fn integrator<M: Model>(&self, model: M) -> BoxedIntegrator<M::Group> {
-        match &self.pilot {
-            Some(pilot) => pilot.integrator(model),
+        match self.checked {
+            Some(checked) => self.gauss(model, checked.tolerance),
             None => self.method.integrator(model),
         }
     }
 
     /// The same with all coordinates among the unknowns of a step.
     pub fn integrator_in_full<M: Model>(&self, model: M) -> BoxedIntegrator<M::Group> {
-        match &self.pilot {
-            Some(pilot) => pilot.integrator(model),
+        match self.checked {
+            Some(checked) => self.gauss(model, checked.tolerance),
             None => self.method.integrator_in_full(model),
         }
     }
@@ -115,5 +73,219 @@ impl Chosen {
             |model| self.integrator(model),
             |model| self.integrator(model),
         )
+    }
+
+    fn gauss<M: Model>(&self, model: M, tolerance: f64) -> BoxedIntegrator<M::Group> {
+        match self
+            .method
+            .stages()
+            .and_then(|s| Gauss::with_stages(model.clone(), s as usize))
+        {
+            Some(gauss) => Box::new(gauss.with_tolerance(tolerance)),
+            None => self.method.integrator(model),
+        }
+    }
+}
+
+/// A scene that is to be run.
+pub(crate) struct Stage<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) model: &'a ArticulatedBody,
+    pub(crate) smallest: &'a Smallest,
+    pub(crate) until: f64,
+    pub(crate) full: bool,
+}
+
+impl Stage<'_> {
+    /// What a choice comes to.
+    pub(crate) fn resolve(&self, choice: Choice) -> Result<Chosen, SimError> {
+        match choice {
+            Choice::Method {
+                method,
+                step: Some(step),
+            } => Ok(Chosen {
+                method,
+                step,
+                checked: None,
+            }),
+            Choice::Method { method, step: None } => {
+                positive("time to run to, in seconds,", self.until)?;
+                Ok(Chosen {
+                    method,
+                    step: self.on_model(DefaultStep(method)),
+                    checked: None,
+                })
+            }
+            Choice::Accuracy(accuracy) => {
+                check_accuracy(accuracy, self.until)?;
+                self.accurate(accuracy)
+            }
+        }
+    }
+
+    /// The integrator that steps the scene.
+    pub(crate) fn integrator(&self, chosen: &Chosen) -> BoxedIntegrator<Configuration> {
+        match self.full {
+            true => chosen.integrator_in_full(self.model.clone()),
+            false => chosen.integrator_of_smallest(self.smallest),
+        }
+    }
+
+    fn accurate(&self, accuracy: f64) -> Result<Chosen, SimError> {
+        let (guess, spent) = self.on_model(Guess(accuracy))?;
+        let make = |stages, tolerance| {
+            let checked = Checked {
+                tolerance,
+                estimate: 0.0,
+                steps: 0,
+            };
+            self.integrator(&chosen(stages, self.until, checked))
+        };
+        let mut search = Search {
+            make: &make,
+            start: self.scene.initial_state()?,
+            until: self.until,
+            accuracy,
+            spent,
+        };
+        let (found, checked) = search.run(guess)?;
+        Ok(chosen(
+            found.stages,
+            self.until / found.steps as f64,
+            checked,
+        ))
+    }
+
+    /// Asks the smallest model, in space or in its plane.
+    fn on_model<A: Ask>(&self, question: A) -> A::Answer {
+        let Smallest {
+            model,
+            start,
+            plane,
+            ..
+        } = self.smallest;
+        match plane {
+            None => question.ask(model, start, self.until),
+            Some(plane) => question.ask(&plane.model(), &plane.project(start), self.until),
+        }
+    }
+}
+
+fn chosen(stages: u32, step: f64, checked: Checked) -> Chosen {
+    Chosen {
+        // No other numbers of stages are tried than there are methods of.
+        method: Method::gauss(stages).unwrap_or_default(),
+        step,
+        checked: Some(checked),
+    }
+}
+
+/// What is asked of a model, whatever its group.
+trait Ask {
+    type Answer;
+
+    fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> Self::Answer;
+}
+
+/// The step that a method takes where none is given.
+struct DefaultStep(Method);
+
+/// The longest easy step of a [`Scout`] on the paper's scene, s.
+const PAPER: f64 = 0.1;
+/// A default step is that of the first so many seconds at least, so that it is the same for all shorter runs.
+const SHORTEST_RUN: f64 = 100.0;
+/// The doublings of a default step, at most: of a motion that hardly moves, and of one that is very fast.
+const DOUBLINGS: [f64; 2] = [-60.0, 4.0];
+/// Steps that have to be solved.
+const TRIED: u32 = 16;
+/// Halvings of a step that is not.
+const HALVINGS: u32 = 20;
+
+impl Ask for DefaultStep {
+    type Answer = f64;
+
+    fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> f64 {
+        let scout = Scout::run(model, start, until.max(SHORTEST_RUN));
+        let ratio = scout.step.map_or(f64::INFINITY, |step| step / PAPER);
+        let doublings = ratio.log2().round().clamp(DOUBLINGS[0], DOUBLINGS[1]);
+        let mut step = self.0.default_step() * doublings.exp2();
+        for _ in 0..HALVINGS {
+            let solved = [start, &scout.fastest]
+                .into_iter()
+                .all(|start| self.solves(model, start, step.min(until)));
+            if solved {
+                break;
+            }
+            step *= 0.5;
+        }
+        step
+    }
+}
+
+impl DefaultStep {
+    /// Whether the first steps are solved.
+    fn solves<M: Model>(&self, model: &M, start: &State<M::Group>, step: f64) -> bool {
+        let (mut integrator, mut state) = (self.0.integrator(model.clone()), start.clone());
+        (0..TRIED).all(|_| integrator.step(&mut state, step).is_ok())
+    }
+}
+
+/// Stages and step for an accuracy, not yet checked, and the steps that this took.
+struct Guess(f64);
+
+/// The easy steps that a pilot run goes over.
+const PILOTED: f64 = 64.0;
+/// The part of the accuracy that a pilot's error may come to by the end, if it grows in proportion to time.
+const PART: f64 = 0.1;
+/// No pilot is asked for less.
+const LEAST: f64 = 1e-13;
+/// A guess where no pilot makes one: the stages, and the step in parts of an easy one.
+const FALLBACK: (u32, f64) = (8, 0.25);
+
+impl Ask for Guess {
+    type Answer = Result<(Candidate, u64), PilotError>;
+
+    fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> Self::Answer {
+        let scout = Scout::run(model, start, until);
+        let easy = scout.step.unwrap_or(until);
+        let duration = until.min(PILOTED * easy);
+        let wanted = (PART * self.0 * duration / until).max(LEAST);
+        let pilot = match Pilot::run(model, &scout.fastest, duration, wanted) {
+            Err(PilotError::OutOfReach { best, .. }) if 20.0 * best < self.0 => {
+                Pilot::run(model, &scout.fastest, duration, 20.0 * best)
+            }
+            found => found,
+        };
+        let candidate = |stages, step, tolerance| Candidate::new(stages, until, step, tolerance);
+        match pilot {
+            Ok(pilot) => {
+                let guess = candidate(pilot.stages as u32, pilot.h, pilot.tolerance);
+                Ok((guess, scout.steps + pilot.steps))
+            }
+            Err(PilotError::OutOfReach { .. }) => {
+                let (stages, part) = FALLBACK;
+                Ok((candidate(stages, part * easy, 0.0), scout.steps))
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_papers_scene_takes_the_steps_of_the_table() {
+        let text = include_str!("../../../scenes/fish-chain.toml");
+        let smallest = Scene::parse(text, "fish-chain.toml")
+            .unwrap()
+            .smallest()
+            .unwrap();
+        let scout = Scout::run(&smallest.model, &smallest.start, 100.0);
+        let step = scout.step.expect("a step that is too long");
+        println!("{step} s, {} steps", scout.steps);
+        // Not near the next power of two.
+        assert!((step / PAPER).log2().abs() < 0.1, "{step}");
     }
 }

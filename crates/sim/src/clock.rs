@@ -47,6 +47,17 @@ impl Clock {
         }
     }
 
+    /// So many equal steps that end at `until` seconds.
+    pub(crate) fn divided(until: f64, steps: u64) -> Self {
+        let step = until / steps as f64;
+        Self {
+            until,
+            steps,
+            step,
+            asked: step,
+        }
+    }
+
     /// The time of the last step's end, s.
     pub fn until(&self) -> f64 {
         self.until

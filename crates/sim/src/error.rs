@@ -4,6 +4,7 @@ use articulated_fluid::ModelError;
 use dvi::{PilotError, StepError};
 use thiserror::Error;
 
+use crate::accuracy::LARGEST_ACCURACY;
 use crate::number::decimal;
 
 /// More steps than this are taken for a slip: a day of computing and more.
@@ -53,6 +54,32 @@ pub enum SimError {
     /// No stages and step were found for the accuracy.
     #[error(transparent)]
     Pilot(#[from] PilotError),
+    /// More than an error can be.
+    #[error(
+        "{accuracy:e} is no accuracy: an attitude is never more than pi off; ask for {LARGEST_ACCURACY} at the most, in radians and metres"
+    )]
+    NoAccuracy {
+        /// As asked for.
+        accuracy: f64,
+    },
+    /// Shorter steps do not keep the accuracy to the end: rounding grows beyond it.
+    #[error("{}", out_of_reach(*accuracy, *until, *held))]
+    AccuracyOutOfReach {
+        /// As asked for, rad and m.
+        accuracy: f64,
+        /// The time to run to, s.
+        until: f64,
+        /// The last time at which it was seen to hold, s.
+        held: f64,
+    },
+    /// No step that was tried for an accuracy is solved to the end.
+    #[error("no step that was tried for the accuracy is solved beyond t = {} s: {source}", decimal(*t))]
+    Rehearsal {
+        /// The last time that was reached, s.
+        t: f64,
+        /// Why.
+        source: StepError,
+    },
     /// A step was refused; the run stays at the end of the one before.
     #[error("{source}")]
     Step {
@@ -84,6 +111,27 @@ impl SimError {
         }
     }
 }
+
+fn out_of_reach(accuracy: f64, until: f64, held: f64) -> String {
+    let why = format!(
+        "an accuracy of {accuracy:e} is out of reach over {} s: shorter steps reach no further, rounding errors grow beyond it",
+        decimal(until)
+    );
+    // Two digits, rounded down; and some room, for another time takes other steps.
+    let size = 10.0_f64.powf(held.log10().floor() - 1.0);
+    let advised = (ROOM * held / size).floor() * size;
+    if advised > 0.0 {
+        let advised: f64 = format!("{advised:.1e}").parse().unwrap_or(advised);
+        let (held, advised) = (format!("{held:.2e}"), decimal(advised));
+        let held = held.parse().map_or(held, decimal);
+        format!("{why}. It holds up to t = {held} s; run to {advised} s, or ask for less")
+    } else {
+        format!("{why} at once; ask for less")
+    }
+}
+
+/// The part of a time for which an accuracy held that is advised.
+const ROOM: f64 = 0.8;
 
 /// The value, if it is finite and positive.
 pub(crate) fn positive(what: &'static str, value: f64) -> Result<f64, SimError> {

@@ -89,8 +89,16 @@ pub struct Sample {
 impl Sample {
     /// The sample of a state; `None` where a quantity is not finite.
     pub fn take(model: &ArticulatedBody, state: &State<Configuration>) -> Option<Self> {
-        let kept = model.conserved(state).ok()?;
-        Some(Self::new(model, state, kept))
+        Self::of(model, state).ok()
+    }
+
+    /// The sample of a state, or why there is none.
+    pub(crate) fn of(
+        model: &ArticulatedBody,
+        state: &State<Configuration>,
+    ) -> Result<Self, ModelError> {
+        let kept = model.conserved(state)?;
+        Ok(Self::new(model, state, kept))
     }
 
     fn new(model: &ArticulatedBody, state: &State<Configuration>, kept: Conserved) -> Self {

@@ -23,7 +23,8 @@
 //! | a run of a scene, from frame to frame | [`Simulation`], by a [`Plan`] |
 //! | any integrator on its way | [`Run`] |
 //! | the integrators by name | [`Method`] |
-//! | a method, or an accuracy that a pilot run finds one for | [`Choice`] |
+//! | a method, or an accuracy that one is found for | [`Choice`] |
+//! | what is known of an accuracy | [`Checked`] |
 //! | when there are steps, and frames | [`Clock`], [`Schedule`] |
 //! | what is seen at one time | [`Frame`], [`Sample`] |
 //! | how far a run strays from what the motion keeps | [`Watch`] |
@@ -31,9 +32,14 @@
 //! | a trajectory as CSV | [`Table`], [`COLUMNS`](table::COLUMNS) |
 //! | a file that is whole or not there | [`AtomicFile`](file::AtomicFile) |
 
+mod accuracy;
+
 mod choice;
 mod clock;
+mod companion;
+mod distance;
 mod error;
+mod estimate;
 pub mod file;
 mod frame;
 pub mod method;
@@ -41,12 +47,15 @@ pub mod number;
 mod report;
 mod run;
 mod schedule;
+mod scout;
 mod simulation;
 pub mod table;
 mod watch;
 
+pub use accuracy::{Checked, LARGEST_ACCURACY};
 pub use choice::{Choice, Chosen};
 pub use clock::Clock;
+pub use distance::distance;
 pub use error::{MAX_STEPS, SimError};
 pub use frame::{Frame, Sample};
 pub use method::{BoxedIntegrator, Method, UnknownMethod};

@@ -160,6 +160,14 @@ impl Method {
         self.entry().family
     }
 
+    /// The stages of Gauss collocation; none of other methods.
+    pub fn stages(self) -> Option<u32> {
+        match self.family() {
+            Family::Gauss { stages } => Some(stages),
+            _ => None,
+        }
+    }
+
     /// The order: the error at a fixed time falls as $h^{\text{order}}$.
     pub fn order(self) -> u32 {
         self.entry().order
@@ -186,7 +194,7 @@ impl Method {
         if self.is_symmetric() { &ALL } else { &ALL[..3] }
     }
 
-    /// A step that is usable and sensible on the paper's scene, in seconds.
+    /// A step that is usable and sensible on the paper's scene, in seconds; on another, a run takes it by a power of two longer or shorter.
     pub fn default_step(self) -> f64 {
         self.entry().default_step
     }
@@ -314,11 +322,11 @@ impl Serialize for Method {
             substeps: Option<u32>,
             stages: Option<u32>,
         }
-        let (substeps, stages) = match self.family() {
-            Family::Composition { substeps } => (Some(substeps), None),
-            Family::Gauss { stages } => (None, Some(stages)),
-            _ => (None, None),
+        let substeps = match self.family() {
+            Family::Composition { substeps } => Some(substeps),
+            _ => None,
         };
+        let stages = self.stages();
         let object = Object {
             name: self.name(),
             description: self.description(),

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::choice::Choice;
+use crate::estimate::Estimator;
 use crate::method::Evaluation;
 use crate::schedule::Schedule;
 use crate::simulation::Simulation;
@@ -37,10 +38,16 @@ pub struct Report {
     pub until_seconds: f64,
     /// The error that was asked for, in radians and metres.
     pub accuracy_asked: Option<f64>,
-    /// What a pilot run says of it: the difference from shorter steps over the horizon.
+    /// What a rehearsal says of it: the largest difference from a run in steps a quarter longer.
     pub accuracy_estimate: Option<f64>,
-    /// How far the pilot run went.
+    /// How far that went: to the end.
     pub accuracy_horizon_seconds: Option<f64>,
+    /// The steps that choosing and checking took, beside those of the run.
+    pub accuracy_check_steps: Option<u64>,
+    /// The largest error of the trajectory so far, in radians and metres, estimated by runs in longer steps.
+    pub trajectory_error_estimate: Option<f64>,
+    /// The steps of those.
+    pub estimate_steps: Option<u64>,
     /// Of stepping alone, microseconds.
     pub time_per_step_us: f64,
     /// Steps between frames.
@@ -51,9 +58,11 @@ pub struct Report {
     pub samples: u64,
     /// At t = 0.
     pub energy_initial_joules: f64,
-    /// The largest error of the energy.
+    /// The largest error of the energy, over all steps, as of what follows.
     pub energy_error_max_joules: f64,
-    /// The same relative to the largest kinetic energy.
+    /// The largest kinetic energy.
+    pub energy_kinetic_max_joules: f64,
+    /// The largest error relative to the largest kinetic energy.
     pub energy_error_max_relative: Option<f64>,
     /// The slope of that by least squares.
     pub energy_slope_per_second: Option<f64>,
@@ -75,14 +84,14 @@ pub struct Report {
     pub solver_iterations_mean: f64,
     /// What an iteration evaluates.
     pub evaluation: Evaluation,
-    /// The mean over the steps.
+    /// The mean over the steps, Newton's matrices included.
     pub evaluations_per_step_mean: f64,
 }
 
 impl Simulation {
     /// What the run has come to so far.
     pub fn report(&self) -> Report {
-        let (account, method, pilot) = (&self.account, self.chosen.method, self.chosen.pilot);
+        let (account, method, checked) = (&self.account, self.chosen.method, self.chosen.checked);
         let (clock, cost, watch) = (self.run.clock(), self.run.cost(), &self.watch);
         let steps = cost.steps.max(1) as f64;
         let iterations = cost.iterations as f64 / steps;
@@ -112,14 +121,18 @@ impl Simulation {
             step_asked_seconds: clock.asked(),
             until_seconds: clock.until(),
             accuracy_asked: accuracy,
-            accuracy_estimate: pilot.map(|pilot| pilot.estimate),
-            accuracy_horizon_seconds: pilot.map(|pilot| pilot.horizon),
+            accuracy_estimate: checked.map(|checked| checked.estimate),
+            accuracy_horizon_seconds: checked.map(|_| clock.until()),
+            accuracy_check_steps: checked.map(|checked| checked.steps),
+            trajectory_error_estimate: self.estimator.as_ref().and_then(Estimator::error),
+            estimate_steps: self.estimator.as_ref().map(Estimator::steps),
             time_per_step_us: cost.time.as_secs_f64() * 1e6 / steps,
             sample_every_steps: every_steps,
             sample_every_seconds: every_seconds,
-            samples: watch.count(),
+            samples: self.frames,
             energy_initial_joules: watch.initial_energy(),
             energy_error_max_joules: watch.energy(),
+            energy_kinetic_max_joules: watch.kinetic(),
             energy_error_max_relative: watch.energy_relative(),
             energy_slope_per_second: watch.energy_slope(),
             gravity_acts: watch.has_weight(),
@@ -131,7 +144,7 @@ impl Simulation {
             solver_iterations_max: cost.most_iterations,
             solver_iterations_mean: iterations,
             evaluation: method.evaluation(),
-            evaluations_per_step_mean: iterations * f64::from(method.evaluations_per_iteration()),
+            evaluations_per_step_mean: cost.evaluations as f64 / steps,
         }
     }
 }

@@ -53,7 +53,9 @@ pub struct Cost {
     pub steps: u64,
     /// Iterations of the solver.
     pub iterations: u64,
-    /// The most of a step.
+    /// Evaluations of the system, those of Newton's matrices among them, as [`StepReport::evaluations`].
+    pub evaluations: u64,
+    /// The most iterations of a step.
     pub most_iterations: u32,
     /// The largest residual of a step, relative as [`StepReport::residual`].
     pub residual: f64,
@@ -63,6 +65,7 @@ impl Cost {
     fn add(&mut self, report: StepReport) {
         self.steps += 1;
         self.iterations += u64::from(report.iterations);
+        self.evaluations += u64::from(report.evaluations);
         self.most_iterations = self.most_iterations.max(report.iterations);
         self.residual = self.residual.max(report.residual);
     }

@@ -1,12 +1,13 @@
 //! A scene on its way, from frame to frame.
 
-use articulated_fluid::{Account, ArticulatedBody, Configuration, Scene};
+use articulated_fluid::{Account, ArticulatedBody, Configuration, Scene, Smallest};
 use dvi::{State, StepError};
 
-use crate::choice::{Choice, Chosen};
+use crate::choice::{Choice, Chosen, Stage};
 use crate::clock::Clock;
 use crate::error::SimError;
-use crate::frame::Frame;
+use crate::estimate::Estimator;
+use crate::frame::{Frame, Sample};
 use crate::method::{BoxedIntegrator, Method};
 use crate::run::Run;
 use crate::schedule::{Due, Schedule};
@@ -26,6 +27,9 @@ pub struct Plan {
     pub schedule: Schedule,
     /// Takes no reduction: all coordinates are unknowns and all terms are computed.
     pub full: bool,
+    /// Lets two companions go along, in steps twice and four times as long: their differences estimate the error of the trajectory.
+    /// They take three quarters as many steps again.
+    pub estimate: bool,
 }
 
 impl Default for Plan {
@@ -36,6 +40,47 @@ impl Default for Plan {
             until: 100.0,
             schedule: Schedule::Steps(10),
             full: false,
+            estimate: false,
+        }
+    }
+}
+
+impl Plan {
+    /// The method and the step that the choice comes to for a scene.
+    ///
+    /// ```
+    /// use articulated_fluid::{Scene, scene};
+    /// use sim::{Choice, Plan};
+    ///
+    /// let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
+    /// let plan = Plan { choice: Choice::Accuracy(1e-6), until: 1.0, ..Plan::default() };
+    /// let chosen = plan.resolve(&scene)?;
+    /// let checked = chosen.checked.ok_or("an accuracy is checked")?;
+    /// assert!(checked.estimate <= 1e-6);
+    /// let integrator = chosen.integrator_of_smallest(&scene.smallest()?);
+    /// assert_eq!(integrator.order(), chosen.method.order());
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SimError`].
+    pub fn resolve(&self, scene: &Scene) -> Result<Chosen, SimError> {
+        let (model, smallest) = (scene.model()?, scene.smallest()?);
+        self.on(scene, &model, &smallest).resolve(self.choice)
+    }
+
+    fn on<'a>(
+        &self,
+        scene: &'a Scene,
+        model: &'a ArticulatedBody,
+        smallest: &'a Smallest,
+    ) -> Stage<'a> {
+        Stage {
+            scene,
+            model,
+            smallest,
+            until: self.until,
+            full: self.full,
         }
     }
 }
@@ -71,6 +116,9 @@ pub struct Simulation {
     pub(crate) model: ArticulatedBody,
     pub(crate) run: Run<BoxedIntegrator<Configuration>>,
     pub(crate) watch: Watch,
+    pub(crate) estimator: Option<Estimator>,
+    /// Frames given out.
+    pub(crate) frames: u64,
     /// The frame at t = 0, until it is given out.
     first: Option<Frame>,
     /// The number of the frame after those; none after the end, or a failure.
@@ -78,28 +126,32 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// The run of a scene at t = 0; an accuracy takes a pilot run first.
+    /// The run of a scene at t = 0; an accuracy takes a rehearsal of the whole run first; see [`Choice::Accuracy`].
     ///
     /// # Errors
     /// [`SimError`].
     pub fn new(scene: &Scene, plan: &Plan) -> Result<Self, SimError> {
         let (model, smallest) = (scene.model()?, scene.smallest()?);
-        let chosen = plan.choice.resolve(&smallest, plan.until)?;
+        let stage = plan.on(scene, &model, &smallest);
+        let start = scene.initial_state()?;
+        let first = Frame::new(&model, start.clone());
+        let first = first.map_err(|error| SimError::unmeasured(0.0, error))?;
+        let chosen = stage.resolve(plan.choice)?;
         let clock = Clock::new(plan.until, chosen.step)?;
         plan.schedule.check(&clock)?;
-        let integrator = match plan.full {
-            true => chosen.integrator_in_full(model.clone()),
-            false => chosen.integrator_of_smallest(&smallest),
-        };
-        let run = Run::new(integrator, scene.initial_state()?, clock);
-        let start = run.state().clone();
-        let first = Frame::new(&model, start).map_err(|error| SimError::unmeasured(0.0, error))?;
+        let estimator = plan.estimate.then(|| {
+            let span = (clock.until(), clock.steps(), chosen.method.order());
+            Estimator::new(|| stage.integrator(&chosen), &start, span)
+        });
+        let run = Run::new(stage.integrator(&chosen), start, clock);
         Ok(Self {
             title: scene.title.clone(),
             account: smallest.account,
             plan: *plan,
             chosen,
             watch: Watch::new(&model, first.sample),
+            estimator,
+            frames: 0,
             model,
             run,
             first: Some(first),
@@ -107,7 +159,7 @@ impl Simulation {
         })
     }
 
-    /// The method: what was chosen, or what the pilot run has found.
+    /// The method: what was chosen, or what was found for an accuracy.
     pub fn method(&self) -> Method {
         self.chosen.method
     }
@@ -143,6 +195,7 @@ impl Simulation {
     /// [`SimError::Step`] and [`SimError::NotFinite`]: then the run is done, and stays at the end of its last step.
     pub fn advance(&mut self) -> Result<Option<Frame>, SimError> {
         if let Some(first) = self.first.take() {
+            self.frames += 1;
             return Ok(Some(first));
         }
         let Some(number) = self.next.take() else {
@@ -150,17 +203,31 @@ impl Simulation {
         };
         let due = self.plan.schedule.due(self.clock(), number);
         let stop = due.steps.min(self.steps() + CHUNK);
-        self.run
-            .advance(stop)
-            .map_err(|error| self.refused(error))?;
+        while self.steps() < stop {
+            self.step()?;
+        }
         if stop < due.steps {
             self.next = Some(number);
             return Ok(None);
         }
         let frame = self.frame(&due)?;
-        self.watch.add(&frame.sample);
+        self.frames += 1;
         self.next = (due.steps < self.clock().steps()).then_some(number + 1);
         Ok(Some(frame))
+    }
+
+    /// Takes a step, and watches what it keeps.
+    fn step(&mut self) -> Result<(), SimError> {
+        let solved = self.run.advance(self.steps() + 1);
+        solved.map_err(|error| self.refused(error))?;
+        let state = self.run.state();
+        let kept = Sample::of(&self.model, state);
+        let sample = kept.map_err(|error| SimError::unmeasured(state.t, error))?;
+        self.watch.add(&sample);
+        if let Some(estimator) = &mut self.estimator {
+            estimator.look(self.run.cost().steps, state);
+        }
+        Ok(())
     }
 
     fn frame(&mut self, due: &Due) -> Result<Frame, SimError> {

@@ -75,7 +75,7 @@ impl<S: Scalar> Link<S> {
         let inverse = S::one() / axis.dot(h);
         let (hd, kd) = (h * inverse, k * inverse);
         self.h -= Sym3::upper(&hd.outer(h));
-        self.x = self.x - kd.outer(h);
+        self.x -= kd.outer(h);
         self.mass -= Sym3::upper(&kd.outer(k));
         (factors.h, factors.k, factors.inverse) = (h, k, inverse);
     }

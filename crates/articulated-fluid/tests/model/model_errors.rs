@@ -114,9 +114,9 @@ fn a_joint_leads_from_a_body_to_a_later_one_at_finite_points() {
         }
     }
     for wrong in wrong {
-        let first = refusal(&bodies, &[wrong, joint(0, 1)]);
-        assert_eq!(first, expected(0, wrong));
-        let second = refusal(&bodies, &[joint(0, 1), wrong]);
+        let first = refusal(&bodies, &[wrong.clone(), joint(0, 1)]);
+        assert_eq!(first, expected(0, wrong.clone()));
+        let second = refusal(&bodies, &[joint(0, 1), wrong.clone()]);
         assert_eq!(second, expected(1, wrong));
     }
 }

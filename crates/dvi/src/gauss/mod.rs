@@ -127,7 +127,7 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
     }
 
     /// The same without Newton's method: a step too long for the plain iteration is refused at once.
-    pub(crate) fn by_sweeps_only(mut self) -> Self {
+    pub fn by_sweeps_only(mut self) -> Self {
         self.limits.sweeps_only = true;
         self
     }

@@ -4,7 +4,7 @@ use lie::{Batch, Jet, LieGroup, Retraction, Scalar, VectorSpace};
 
 use super::sweep::{End, Sweep};
 use super::tableau::Tableau;
-use crate::numerics::duals::{add_constant, for_each_chunk, lift, seeded, set_columns};
+use crate::numerics::duals::{add_constant, for_each_chunk, in_duals, lift, seeded, set_columns};
 use crate::numerics::large::Large;
 use crate::numerics::sizes::{Kinds, Weights};
 use crate::variation::Varied;
@@ -30,6 +30,8 @@ pub(super) struct SweepNewton<C: ContinuousSystem> {
     kind_of: Vec<usize>,
     unknowns: Vec<J>,
     varied: Varied<C::Group>,
+    /// Of the system, for the matrices so far; see [`StepReport::evaluations`](crate::StepReport::evaluations).
+    pub(super) evaluations: u32,
 }
 
 impl<C: ContinuousSystem> SweepNewton<C> {
@@ -57,6 +59,7 @@ impl<C: ContinuousSystem> SweepNewton<C> {
             kind_of,
             unknowns: vec![J::constant(0.0); dim],
             varied,
+            evaluations: 0,
         }
     }
 
@@ -97,6 +100,9 @@ impl<C: ContinuousSystem> SweepNewton<C> {
         self.set_state(system, state);
         self.sweep.extra_force = None;
         let dim = self.x.len();
+        let stages = (dim / self.kind_of.len().max(1) - 1) / 2;
+        let evaluations = in_duals(dim).wrapping_mul(stages as u32);
+        self.evaluations = self.evaluations.wrapping_add(evaluations);
         for_each_chunk(dim, |first| {
             for (i, (unknown, x)) in self.unknowns.iter_mut().zip(&self.x).enumerate() {
                 *unknown = seeded(*x, i, first);

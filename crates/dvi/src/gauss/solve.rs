@@ -80,6 +80,7 @@ impl Ended {
         let StepReport {
             iterations,
             residual,
+            ..
         } = self.report();
         Cause::NotConverged {
             residual,
@@ -91,6 +92,20 @@ impl Ended {
 
 impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     pub(super) fn solve<R: Retraction>(
+        &mut self,
+        method: Method<C>,
+        start: Start<C>,
+        limits: Limits,
+    ) -> Result<StepReport, Cause> {
+        let matrices = |work: &Self| work.newton.as_ref().map_or(0, |newton| newton.evaluations);
+        let before = matrices(self);
+        let mut report = self.solve_uncounted::<R>(method, start, limits)?;
+        let stages = method.1.nodes.len() as u32;
+        report.evaluations = stages * report.iterations + matrices(self).wrapping_sub(before);
+        Ok(report)
+    }
+
+    fn solve_uncounted<R: Retraction>(
         &mut self,
         method: Method<C>,
         start: Start<C>,
@@ -204,6 +219,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             report = StepReport {
                 iterations,
                 residual: changes.now,
+                evaluations: 0,
             };
             let solved = changes.are_solved(tolerance);
             if solved || iterations % LOOKS_AT_END == 0 {
@@ -319,6 +335,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             report = StepReport {
                 iterations,
                 residual: best,
+                evaluations: 0,
             };
             if is_solved(change, last, tolerance) {
                 // Where the matrix of the steps before has done, the step is as theirs.

@@ -58,6 +58,11 @@ where
     }
 }
 
+/// What the derivatives along `dim` directions cost, in evaluations: each chunk its value and its directions.
+pub(crate) fn in_duals(dim: usize) -> u32 {
+    (dim.div_ceil(lie::JET_DIRECTIONS) * (1 + lie::JET_DIRECTIONS)) as u32
+}
+
 /// The parameters of a system as constants over another scalar, into `out`.
 pub(crate) fn lift<S: Copy, T>(parameters: &[S], constant: impl Fn(S) -> T, out: &mut Vec<T>) {
     out.clear();

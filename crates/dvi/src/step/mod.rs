@@ -62,6 +62,9 @@ pub trait Integrator {
 pub struct StepReport {
     /// Evaluations of the step's equation.
     pub iterations: u32,
+    /// Evaluations of the system: of the discrete derivatives, or of velocity and force at a stage; none where an integrator does not
+    /// count. Those of Newton's matrices are among them: one in dual numbers counts as one, and as one more for each derivative.
+    pub evaluations: u32,
     /// The equation's residual relative to the momentum, in the unit of coordinates where that is largest.
     pub residual: f64,
 }

@@ -5,6 +5,7 @@ use core::ops::Range;
 use lie::VectorSpace;
 
 use super::newton::{DENSE_LIMIT, Newton, cyclic};
+use crate::numerics::duals::in_duals;
 use crate::system::{Algebra, Dual};
 use crate::{Context, Derivatives, DiscreteLagrangian, State};
 
@@ -20,6 +21,8 @@ pub(super) struct Matrix<L: DiscreteLagrangian> {
     /// With an inertia, made when first needed.
     exact: Option<Newton<L>>,
     takes_exact: bool,
+    /// Of the derivatives, for the matrices of this step; see [`StepReport::evaluations`](crate::StepReport::evaluations).
+    pub(super) evaluations: u32,
 }
 
 impl<L: DiscreteLagrangian> Matrix<L> {
@@ -32,6 +35,7 @@ impl<L: DiscreteLagrangian> Matrix<L> {
             keeps_all,
             exact: (!L::HAS_INERTIA).then(|| Newton::new(lagrangian, g)),
             takes_exact: !L::HAS_INERTIA,
+            evaluations: 0,
         }
     }
 
@@ -117,6 +121,7 @@ impl<L: DiscreteLagrangian> Matrix<L> {
         let exact = self.exact.get_or_insert_with(new);
         exact.renew(lagrangian, state, h, c);
         self.takes_exact = true;
+        self.evaluations += in_duals(c.dim());
         true
     }
 

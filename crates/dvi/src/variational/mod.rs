@@ -226,6 +226,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
             tolerance: self.tolerance.unwrap_or(TOLERANCE * few),
             accepts_rounding: self.tolerance.is_none(),
         };
+        work.matrix.evaluations = 0;
         let mut before = 0;
         if work.warm.guess(h, &mut work.coordinates) {
             work.begin(lagrangian, (state, h));
@@ -233,7 +234,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
             let ended = work.iterate(lagrangian, (state, h), goal);
             // An even number may be two bodies past their folds: the guess was, and the determinant does not tell.
             if ended.at == End::Solved && ended.turns == 0 {
-                return Ok(ended.report);
+                return Ok(counted(ended.report, work));
             }
             before = ended.report.iterations;
             work.forget();
@@ -242,7 +243,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
         ended.report.iterations += before;
         let coordinate = match ended.at {
             End::Solved => match work.matrix.degenerate() {
-                None => return Ok(ended.report),
+                None => return Ok(counted(ended.report, work)),
                 coordinate => coordinate,
             },
             End::NotFinite => None,
@@ -269,10 +270,19 @@ fn require_end<L: DiscreteLagrangian>(
     ends.then_some(()).ok_or(Cause::NotFinite)
 }
 
+/// With the evaluations of iterations and matrices.
+fn counted<L: DiscreteLagrangian>(report: StepReport, work: &Work<L>) -> StepReport {
+    StepReport {
+        evaluations: report.iterations + work.matrix.evaluations,
+        ..report
+    }
+}
+
 fn failure(h: f64, tolerance: f64, ended: &Ended) -> Cause {
     let StepReport {
         iterations,
         residual,
+        ..
     } = ended.report;
     let hint = match ended.at {
         End::NotFinite => return Cause::NotFinite,

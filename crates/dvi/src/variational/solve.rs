@@ -272,6 +272,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             report: StepReport {
                 iterations,
                 residual,
+                evaluations: 0,
             },
             at,
             turns: 0,
@@ -362,6 +363,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             report: StepReport {
                 iterations,
                 residual,
+                evaluations: 0,
             },
             at: End::Solved,
             turns,

@@ -1,5 +1,7 @@
 //! Runs of scenes: the methods by name, the laws of the loop, and the table. One program, for what they share is compiled once.
 
+mod accuracy;
+mod errors;
 mod file;
 mod methods;
 mod simulation;
@@ -11,6 +13,12 @@ use articulated_fluid::Scene;
 fn paper() -> Scene {
     let text = include_str!("../../../../scenes/fish-chain.toml");
     Scene::parse(text, "fish-chain.toml").unwrap()
+}
+
+/// A scene of the collection.
+fn scene(name: &str) -> Scene {
+    let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    Scene::load(&scenes.join(name).with_extension("toml")).unwrap()
 }
 
 /// A chain in a vacuum that drifts and falls: its states depend on the time.

@@ -249,7 +249,7 @@ fn an_accuracy_and_all_coordinates_give_the_same_motion() {
             (report.unknowns, report.reductions.is_empty()),
             if full { (12, true) } else { (9, false) }
         );
-        for (a, b) in end.attitudes().iter().zip(exact.attitudes()) {
+        for (a, b) in end.bodies.attitudes.iter().zip(&exact.bodies.attitudes) {
             assert!((*a.matrix() - *b.matrix()).frobenius() < 1e-7);
         }
     }

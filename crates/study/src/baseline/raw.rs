@@ -43,8 +43,8 @@ pub(super) fn write(State { g, mu, .. }: &State<Configuration>, y: &mut [f64]) {
     for (entries, x) in of_x.chunks_exact_mut(3).zip(x.iter()) {
         entries.copy_from_slice(&x.0);
     }
-    (&mu.0).write(&mut of_mu[..3 * r.len()]);
-    (&mu.1).write(&mut of_mu[3 * r.len()..]);
+    mu.0.write(&mut of_mu[..3 * r.len()]);
+    mu.1.write(&mut of_mu[3 * r.len()..]);
 }
 
 /// The inverse of [`pack`] into a configuration and momentum of fitting size, with the matrices as they are; the same state in all

@@ -71,8 +71,8 @@ pub struct Cost {
     pub time: Duration,
     /// Steps taken, of an adaptive method those accepted.
     pub steps: u64,
-    /// Evaluations of the continuous model's velocity and force, or of the discrete Lagrangian's derivatives; Newton's matrices are not
-    /// counted.
+    /// Evaluations of the continuous model's velocity and force, or of the discrete Lagrangian's derivatives, those of Newton's matrices
+    /// included; see [`dvi::StepReport::evaluations`].
     pub evaluations: u64,
     /// Of the solver; none of an explicit method.
     pub iterations: u64,

@@ -15,18 +15,14 @@ impl Contender {
         self.fixed(problem).map(|(integrator, _)| integrator)
     }
 
-    /// The same, with its evaluations in a step and in an iteration of its solver.
-    fn fixed(self, problem: &Problem) -> Option<(BoxedIntegrator<Configuration>, [u64; 2])> {
+    /// The same, with its evaluations in a step that its reports do not count.
+    fn fixed(self, problem: &Problem) -> Option<(BoxedIntegrator<Configuration>, u64)> {
         let Problem { model, start, .. } = problem;
         match self {
-            Self::Structure(method) => {
-                let evaluations = [0, method.evaluations_per_iteration().into()];
-                Some((method.integrator(model.clone()), evaluations))
-            }
+            Self::Structure(method) => Some((method.integrator(model.clone()), 0)),
             Self::Pilot => None,
             Self::Baseline(baseline) => {
-                let evaluations = [baseline.stages() as u64, 0];
-                Some((baseline.integrator(model, start)?, evaluations))
+                Some((baseline.integrator(model, start)?, baseline.stages() as u64))
             }
         }
     }
@@ -91,7 +87,7 @@ impl<'a> Run<'a> {
                 let pilot = Pilot::run(model, start, until, accuracy)?;
                 // A whole number but for rounding; of a long run only the beginning was tried, and its steps get no longer.
                 let steps = (until / pilot.h - 1e-6).ceil() as u64;
-                let fixed = (pilot.integrator(model.clone()), [0, pilot.stages as u64]);
+                let fixed = (pilot.integrator(model.clone()), 0);
                 Ok(Self::Fixed(Walk::new(problem, steps, fixed)))
             }
             (Contender::Baseline(baseline), Setting::Tolerance(tolerance)) => {
@@ -131,15 +127,15 @@ impl<'a> Run<'a> {
 struct Walk<'a> {
     run: sim::Run<BoxedIntegrator<Configuration>>,
     problem: &'a Problem,
-    /// In a step, and in an iteration of its solver.
-    evaluations: [u64; 2],
+    /// In a step, beside those that are reported.
+    evaluations: u64,
 }
 
 impl<'a> Walk<'a> {
     fn new(
         problem: &'a Problem,
         steps: u64,
-        (integrator, evaluations): (BoxedIntegrator<Configuration>, [u64; 2]),
+        (integrator, evaluations): (BoxedIntegrator<Configuration>, u64),
     ) -> Self {
         let clock = Clock::counted(steps, problem.until / steps as f64);
         Self {
@@ -164,13 +160,15 @@ impl<'a> Walk<'a> {
     }
 
     fn cost(&self) -> Cost {
-        let [in_step, in_iteration] = self.evaluations;
         let sim::Cost {
-            steps, iterations, ..
+            steps,
+            iterations,
+            evaluations,
+            ..
         } = *self.run.cost();
         Cost {
             steps,
-            evaluations: steps * in_step + iterations * in_iteration,
+            evaluations: steps * self.evaluations + evaluations,
             iterations,
             ..Cost::default()
         }
