@@ -28,7 +28,10 @@ impl<S: Scalar> Default for Expansion<S> {
 }
 
 /// The turns and the hinge angles of a displacement.
-pub(crate) type Turns<'a, S> = (&'a [SO3<S>], &'a [Rn<1, S>]);
+pub(crate) type Turns<'a, S> = (&'a [SO3<S>], Angles<'a, S>);
+
+/// The hinge angles of a displacement.
+pub(crate) type Angles<'a, S> = &'a [Rn<1, S>];
 
 /// A step as the bodies see it.
 #[derive(Clone, Copy)]
@@ -111,21 +114,11 @@ impl ArticulatedBody {
         all.resize(self.nodes.len(), SO3::identity());
         e.resize(self.nodes.len(), Mat3::zero());
         for (i, node) in self.nodes.iter().enumerate() {
-            let own = match node.role {
-                Role::Ball(k) => {
-                    (all[i], e[i]) = (turns[k], turns[k].minus_identity());
-                    continue;
-                }
-                Role::Hinge(k) => {
-                    let (hinge, dq) = (&self.hinges[k], angles[k].0[0]);
-                    next.c[i] = hinge.relative(g.2[k].0[0] + dq);
-                    hinge.turn_minus_identity(dq)
-                }
-                Role::Prescribed(_) => {
-                    let (c, c_next) = (*now.c[i].matrix(), *next.c[i].matrix());
-                    c.transpose() * (c_next - c)
-                }
-            };
+            if let Role::Ball(k) = node.role {
+                (all[i], e[i]) = (turns[k], turns[k].minus_identity());
+                continue;
+            }
+            let own = self.own_turn(i, (g, angles), [&mut *now, &mut *next]);
             e[i] = match i {
                 0 => own,
                 _ => {
@@ -153,20 +146,13 @@ impl ArticulatedBody {
         }
         for (i, node) in self.nodes.iter().enumerate().rev() {
             let (plus, minus) = (n_plus[i].vec3(), n_minus[i].vec3());
-            match node.role {
-                Role::Ball(k) => {
-                    d_f.0[k] = plus.into();
-                    d_g.0[k] = (minus + step.f[i].rotate(plus)).into();
-                    continue;
-                }
-                Role::Hinge(k) => {
-                    let axis = self.hinges[k].axis.lift();
-                    d_f.2[k][0] = plus.dot(axis);
-                    d_g.2[k][0] = (minus + plus).dot(axis);
-                }
-                Role::Prescribed(_) => {}
-            }
-            if i > 0 {
+            // An attitude is moved at the start of the step, an angle at both ends alike.
+            let at_start = match node.role {
+                Role::Ball(_) => step.f[i].rotate(plus),
+                _ => plus,
+            };
+            self.project(i, minus + at_start, d_g);
+            if self.project(i, plus, d_f) {
                 let parent = node.parent;
                 let on_parent = step.next.c[i].rotate(plus);
                 n_plus[parent] = (n_plus[parent].vec3() + on_parent).into();

@@ -6,7 +6,7 @@ use core::ops::Add;
 
 use lie::{Cotangent, Ldl3, SO3, Scalar, Sym3, Vec3};
 
-use crate::joints::{HingeFactors, Link, Role};
+use crate::joints::{HingeFactors, Link};
 use crate::pose::Drive;
 use crate::tree::{ArticulatedBody, Momentum, Velocity};
 
@@ -62,7 +62,7 @@ impl<S: Scalar> Elimination<S> {
         if node.is_last_sibling {
             self.links[node.parent].reset(&tree.nodes[node.parent], &tree.masses[node.parent]);
         }
-        self.eliminate_mass(tree, i);
+        tree.eliminate_mass(i, &mut self.links[i], &mut self.hinges);
         let (parent, link) = self.joint(i, node.parent);
         if node.role.is_root() {
             link.c = r[node.parent].matrix().transpose() * *r[i].matrix();
@@ -73,27 +73,9 @@ impl<S: Scalar> Elimination<S> {
         }
     }
 
-    /// What the joint of body `i` leaves free, eliminated from the mass.
-    #[inline(always)]
-    fn eliminate_mass(&mut self, tree: &ArticulatedBody, i: usize) {
-        let (node, link) = (&tree.nodes[i], &mut self.links[i]);
-        if node.role.is_root() {
-            if !node.is_leaf {
-                link.eliminate();
-            }
-            return;
-        }
-        if node.is_leaf {
-            link.reset(node, &tree.masses[i]);
-        }
-        if let Role::Hinge(k) = node.role {
-            link.eliminate_hinge(tree.hinges[k].axis.lift(), &mut self.hinges[k]);
-        }
-    }
-
     #[inline(always)]
     fn factorise_base(&mut self, tree: &ArticulatedBody) {
-        self.eliminate_mass(tree, 0);
+        tree.eliminate_mass(0, &mut self.links[0], &mut self.hinges);
         if tree.is_free() {
             self.base = self.links[0].mass.ldl();
         }
@@ -116,13 +98,10 @@ impl<S: Scalar> Elimination<S> {
     }
 
     #[inline(always)]
-    fn read_momenta(&mut self, tree: &ArticulatedBody, (p, ..): &Momentum<S>) {
-        for (link, node) in self.links.iter_mut().zip(&tree.nodes) {
+    fn read_momenta(&mut self, tree: &ArticulatedBody, mu: &Momentum<S>) {
+        for (i, link) in self.links.iter_mut().enumerate() {
             link.force = Vec3::zero();
-            link.w = match node.role {
-                Role::Ball(k) => p[k].vec3(),
-                _ => Vec3::zero(),
-            };
+            link.w = tree.own_momentum(i, mu);
         }
     }
 
@@ -135,31 +114,11 @@ impl<S: Scalar> Elimination<S> {
         mu: &Momentum<S>,
     ) {
         let node = &tree.nodes[i];
-        self.eliminate_force(tree, i, drive, mu);
+        tree.eliminate_force(i, (drive, mu), &mut self.links[i], &mut self.hinges);
         let (parent, link) = self.joint(i, node.parent);
-        match node.role {
-            Role::Ball(_) => parent.carry_force(link, node.lever.lift()),
-            _ => parent.carry_wrench(link, node.lever.lift()),
-        }
-    }
-
-    /// What the joint of body `i` leaves free, eliminated from the momenta.
-    #[inline(always)]
-    fn eliminate_force(
-        &mut self,
-        tree: &ArticulatedBody,
-        i: usize,
-        drive: Drive<S>,
-        (.., hinges): &Momentum<S>,
-    ) {
-        let link = &mut self.links[i];
-        match tree.nodes[i].role {
-            Role::Ball(_) => link.eliminate_force(),
-            Role::Hinge(k) => {
-                let axis = tree.hinges[k].axis.lift();
-                link.eliminate_hinge_force(axis, hinges[k][0], &mut self.hinges[k]);
-            }
-            Role::Prescribed(_) => link.drive(drive.rate(i)),
+        match node.role.is_root() {
+            true => parent.carry_force(link, node.lever.lift()),
+            false => parent.carry_wrench(link, node.lever.lift()),
         }
     }
 
@@ -171,7 +130,7 @@ impl<S: Scalar> Elimination<S> {
         drive: Drive<S>,
         mu: &Momentum<S>,
     ) {
-        self.eliminate_force(tree, 0, drive, mu);
+        tree.eliminate_force(0, (drive, mu), &mut self.links[0], &mut self.hinges);
         let u = match tree.is_free() {
             true => {
                 let rest = r0.inverse_rotate(mu.1[0].vec3()) - self.links[0].force;
@@ -179,7 +138,8 @@ impl<S: Scalar> Elimination<S> {
             }
             false => r0.inverse_rotate(drive.place),
         };
-        self.advance_body(tree, 0, (Vec3::zero(), u), drive);
+        let handed = (Vec3::zero(), u);
+        tree.advance(0, handed, drive, &mut self.links[0], &mut self.hinges);
     }
 
     /// [`factorise`](Self::factorise) and [`begin`](Self::begin) in one pass, the momenta of a body while its factors are at hand.
@@ -211,49 +171,24 @@ impl<S: Scalar> Elimination<S> {
 
 /// Velocities, from the first body to the leaves.
 impl<S: Scalar> Elimination<S> {
-    /// The velocity of body `i` from the parent's rate in its frame and the velocity of its joint.
-    #[inline(always)]
-    fn advance_body(
-        &mut self,
-        tree: &ArticulatedBody,
-        i: usize,
-        (turning, u): (Vec3<S>, Vec3<S>),
-        drive: Drive<S>,
-    ) {
-        let (node, link) = (&tree.nodes[i], &mut self.links[i]);
-        let at_self = node.at_self.lift();
-        match node.role {
-            Role::Ball(_) => return link.advance(u, at_self),
-            Role::Hinge(k) => {
-                let axis = tree.hinges[k].axis.lift();
-                link.advance_hinge(axis, (turning, u), &mut self.hinges[k]);
-            }
-            Role::Prescribed(_) => link.omega = turning + drive.rate(i),
-        }
-        link.v = u + at_self.cross(link.omega);
-    }
-
     /// The velocity of body `i`'s joint, from its parent's velocity; then its own. What the parent hands on is returned.
     #[inline(always)]
     fn advance(&mut self, tree: &ArticulatedBody, i: usize, drive: Drive<S>) -> (Vec3<S>, Vec3<S>) {
         let node = &tree.nodes[i];
         let (parent, link) = self.joint(i, node.parent);
         let u = parent.joint_velocity(link, node.at_parent.lift());
-        let turning = match node.role {
-            Role::Ball(_) => Vec3::zero(),
-            _ => link.c.transpose_mul(parent.omega),
+        let turning = match node.role.is_root() {
+            true => Vec3::zero(),
+            false => link.c.transpose_mul(parent.omega),
         };
-        self.advance_body(tree, i, (turning, u), drive);
-        (turning, u)
+        let handed = (turning, u);
+        tree.advance(i, handed, drive, &mut self.links[i], &mut self.hinges);
+        handed
     }
 
     #[inline(always)]
     fn write(&self, tree: &ArticulatedBody, i: usize, xi: &mut Velocity<S>) {
-        match tree.nodes[i].role {
-            Role::Ball(k) => xi.0[k] = self.links[i].omega.into(),
-            Role::Hinge(k) => xi.2[k][0] = self.hinges[k].rate,
-            Role::Prescribed(_) => {}
-        }
+        tree.write_velocity(i, &self.links[i], &self.hinges, xi);
     }
 
     #[inline(always)]
@@ -298,25 +233,14 @@ impl<S: Scalar> Elimination<S> {
         };
         let base = &self.links[0];
         tau[0] = tree.masses[0].apply(base.v).cross(u).into();
-        if let Role::Hinge(k) = tree.nodes[0].role {
-            self.hinges[k].moment = base.wrench(Vec3::zero(), u).1;
-        }
+        tree.force_on_joint(0, (Vec3::zero(), u), base, &mut self.hinges);
         for i in 1..self.links.len() {
             let (turning, u) = self.advance(tree, i, drive);
             self.write(tree, i, xi);
             let (node, link) = (&tree.nodes[i], &self.links[i]);
             let momentum = tree.masses[i].apply(link.v);
             tau[i] = momentum.cross(u).into();
-            let force = match node.role {
-                Role::Ball(_) => link.mass * u + link.force,
-                role => {
-                    let (force, moment) = link.wrench(turning, u);
-                    if let Role::Hinge(k) = role {
-                        self.hinges[k].moment = moment;
-                    }
-                    force
-                }
-            };
+            let force = tree.force_on_joint(i, (turning, u), link, &mut self.hinges);
             let on_parent = link.c * force;
             let turned = self.links[node.parent].omega.cross(node.lever.lift());
             let tau = &mut tau[node.parent];
@@ -331,22 +255,12 @@ impl<S: Scalar> Elimination<S> {
         &self,
         tree: &ArticulatedBody,
         tau: &mut [Cotangent<3, S>],
-        (on_roots, _, on_hinges): &mut Momentum<S>,
+        out: &mut Momentum<S>,
     ) {
         for (i, node) in tree.nodes.iter().enumerate().rev() {
-            let own = tau[i].vec3();
-            match node.role {
-                Role::Ball(k) => {
-                    on_roots[k] = own.into();
-                    continue;
-                }
-                Role::Hinge(k) => {
-                    let transport = self.hinges[k].moment.cross(self.links[i].omega);
-                    on_hinges[k][0] = (own + transport).dot(tree.hinges[k].axis.lift());
-                }
-                Role::Prescribed(_) => {}
-            }
-            if i > 0 {
+            let (own, link) = (tau[i].vec3(), &self.links[i]);
+            let transport = tree.transport(i, link, &self.hinges);
+            if tree.project(i, own + transport, out) {
                 let on_parent = tau[node.parent].vec3() + self.links[i].c * own;
                 tau[node.parent] = on_parent.into();
             }

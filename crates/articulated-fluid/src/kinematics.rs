@@ -4,7 +4,6 @@ use lie::{LieGroup, Power, SO3, Scalar, Sym3, Vec3};
 use smallvec::SmallVec;
 
 use crate::error::ModelError;
-use crate::joints::Role;
 use crate::node::Node;
 use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
@@ -150,24 +149,19 @@ impl ArticulatedBody {
     pub(crate) fn body_velocities<S: Scalar>(
         &self,
         (r, pose): (&[SO3<S>], &Pose<S>),
-        (omega, dx, dq): &Velocity<S>,
+        xi: &Velocity<S>,
     ) -> (PerBody<Vec3<S>>, PerBody<Vec3<S>>) {
         let bodies = self.nodes.len();
         let mut rates: PerBody<Vec3<S>> = SmallVec::with_capacity(bodies);
         let mut velocities: PerBody<Vec3<S>> = SmallVec::with_capacity(bodies);
         for (i, node) in self.nodes.iter().enumerate() {
-            let turning = |rates: &[Vec3<S>]| match i {
+            let rate = self.rate(i, xi, pose, || match i {
                 0 => Vec3::zero(),
                 _ => pose.c[i].inverse_rotate(rates[node.parent]),
-            };
-            let rate = match node.role {
-                Role::Ball(k) => omega[k].vec3(),
-                Role::Hinge(k) => turning(&rates) + self.hinges[k].axis.lift() * dq[k][0],
-                Role::Prescribed(_) => turning(&rates) + pose.rates[i],
-            };
+            });
             let own = node.at_self.lift::<S>().cross(rate);
             let on = match i {
-                0 if self.is_free() => dx[0].vec3(),
+                0 if self.is_free() => xi.1[0].vec3(),
                 0 => pose.place[1],
                 _ => {
                     let swept = rates[node.parent].cross(node.at_parent.lift());
@@ -242,15 +236,7 @@ impl ArticulatedBody {
     fn gather_momenta(&self, pose: &Pose<f64>, (mut n, linear): (PerBody<Vec3>, Vec3)) -> Momentum {
         let mut momenta = self.aligned().zero_dual();
         for (i, node) in self.nodes.iter().enumerate().rev() {
-            match node.role {
-                Role::Ball(k) => {
-                    momenta.0[k] = n[i].into();
-                    continue;
-                }
-                Role::Hinge(k) => momenta.2[k][0] = self.hinges[k].axis.dot(n[i]),
-                Role::Prescribed(_) => {}
-            }
-            if i > 0 {
+            if self.project(i, n[i], &mut momenta) {
                 let on_parent = pose.c[i].rotate(n[i]);
                 n[node.parent] += on_parent;
             }

@@ -2,7 +2,6 @@
 
 use lie::{SO3, Scalar, Vec3};
 
-use crate::joints::Role;
 use crate::motion;
 use crate::tree::{ArticulatedBody, Base, Configuration};
 
@@ -84,17 +83,10 @@ impl ArticulatedBody {
             return (&g.0, pose);
         }
         for (i, node) in self.nodes.iter().enumerate() {
-            match node.role {
-                Role::Ball(k) => {
-                    pose.r[i] = g.0[k];
-                    continue;
-                }
-                Role::Hinge(k) => pose.c[i] = self.hinges[k].relative(g.2[k].0[0]),
-                Role::Prescribed(_) => {}
-            }
-            pose.r[i] = match i {
-                0 => pose.c[0],
-                _ => {
+            pose.r[i] = match self.own_attitude(i, g, pose) {
+                Some(r) => r,
+                None if i == 0 => pose.c[0],
+                None => {
                     let turned = *pose.r[node.parent].matrix() * *pose.c[i].matrix();
                     SO3::from_matrix_unchecked(turned)
                 }
@@ -126,10 +118,8 @@ impl ArticulatedBody {
         pose.r.resize(bodies, SO3::identity());
         pose.c.resize(bodies, SO3::identity());
         pose.rates.resize(bodies, Vec3::zero());
-        for (i, node) in self.nodes.iter().enumerate() {
-            if let Role::Prescribed(k) = node.role {
-                (pose.c[i], pose.rates[i]) = self.motions[k].at(t);
-            }
+        for i in 0..bodies {
+            self.read_motion(t, i, pose);
         }
         if let Base::Held { place, .. } = &self.base {
             pose.place = motion::at(place.as_ref(), t).map(Vec3);

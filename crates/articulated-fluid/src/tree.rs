@@ -151,23 +151,12 @@ impl ArticulatedBody {
         kind: &JointKind,
     ) -> Result<(), ModelError> {
         let index = self.nodes.len();
-        let role = match kind {
-            JointKind::Ball => {
-                self.roots.push(index);
-                Role::Ball(self.roots.len() - 1)
-            }
-            JointKind::Hinge(hinge) => {
-                if (hinge.axis.norm() - 1.0).abs() > 1e-12 || !hinge.rest_angle.is_finite() {
-                    return Err(ModelError::Hinge { body: index });
-                }
-                self.hinges.push(*hinge);
-                Role::Hinge(self.hinges.len() - 1)
-            }
-            JointKind::Prescribed(motion) => {
-                self.motions.push(motion.clone());
-                Role::Prescribed(self.motions.len() - 1)
-            }
-        };
+        if let JointKind::Hinge(hinge) = kind
+            && ((hinge.axis.norm() - 1.0).abs() > 1e-12 || !hinge.rest_angle.is_finite())
+        {
+            return Err(ModelError::Hinge { body: index });
+        }
+        let role = self.take_role(kind);
         let on = self.nodes.get(parent).map_or(Vec3::zero(), |p| p.at_self);
         self.nodes.push(Node::new(body, (parent, points), on, role));
         Ok(())
@@ -310,14 +299,6 @@ impl ArticulatedBody {
             at_child: node.at_self,
             kind: self.kind(node.role),
         })
-    }
-
-    fn kind(&self, role: Role) -> JointKind {
-        match role {
-            Role::Ball(_) => JointKind::Ball,
-            Role::Hinge(k) => JointKind::Hinge(self.hinges[k]),
-            Role::Prescribed(k) => JointKind::Prescribed(self.motions[k].clone()),
-        }
     }
 
     /// The aligned configuration: all attitudes the identity, the first body at the origin, hinges at the angle 0.

@@ -5,16 +5,65 @@
 //! is solved for, and the force on it is $F_i = M^\ast u + f^\ast$: its parent takes over the mass and the force.
 //! A joint that leaves less than a rotation free hands up $A, K, H$ and the moment with it.
 //!
-//! Each kind of joint is a file: how it eliminates the mass and the force, how the velocity goes on outwards, and what it makes of a moment.
+//! Each kind of joint is a file: how it eliminates the mass and the force, how the velocity goes on outwards, and what it makes of a
+//! moment. [`act`] alone tells them apart.
 
+mod act;
 mod ball;
 mod given;
 mod hinge;
-mod kind;
 mod link;
 
+use lie::{SO3, Vec3};
+
+use crate::motion::Motion;
 pub use hinge::Hinge;
 pub(crate) use hinge::HingeFactors;
-pub use kind::JointKind;
-pub(crate) use kind::Role;
 pub(crate) use link::Link;
+
+/// What a joint leaves free.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum JointKind {
+    /// Every rotation: the child's attitude in the reference frame is an unknown.
+    #[default]
+    Ball,
+    /// The angle about an axis, an unknown that is not wrapped.
+    Hinge(Hinge),
+    /// Nothing: the attitude on the parent is fixed, or moves as told.
+    Prescribed(Motion),
+}
+
+impl JointKind {
+    /// A hinge about an axis of any length in the child's frame; at the angle 0 the child has the attitude `rest` on the parent.
+    pub fn hinge(axis: Vec3, rest: SO3) -> Self {
+        let axis = axis * (1.0 / axis.norm());
+        Self::Hinge(Hinge {
+            axis,
+            rest,
+            rest_angle: 0.0,
+        })
+    }
+
+    /// A weld, with the attitude of the child on the parent.
+    pub fn fixed(rest: SO3) -> Self {
+        Self::Prescribed(Motion::Fixed(rest))
+    }
+}
+
+/// What a body's attitude comes from: the k-th of its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// An attitude of the configuration.
+    Ball(usize),
+    /// A hinge angle of the configuration.
+    Hinge(usize),
+    /// A motion of the tree.
+    Prescribed(usize),
+}
+
+impl Role {
+    /// Whether the attitude is an unknown of its own.
+    pub(crate) fn is_root(self) -> bool {
+        matches!(self, Self::Ball(_))
+    }
+}
