@@ -1,4 +1,4 @@
-//! Rigid ellipsoids on ball joints in a perfect fluid.
+//! Rigid ellipsoids on joints in a perfect fluid.
 //!
 //! The model of T. Lee, M. Leok, N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect fluid* (2009), for any tree
 //! of bodies; [`formulas`] derives it. The fluid is irrotational and incompressible, so that it only adds to the inertia of the bodies:
@@ -37,6 +37,39 @@
 //! Sec. V have the opposite sign; and the density there is $1/(32 \pi)$ kg/m³.
 //!
 //! [`scene`] reads scenes from files.
+//!
+//! # Joints
+//! A joint is a ball, a hinge, or fixed, or moves as told: [`JointKind`]. [`ArticulatedBody::held`] hangs the first body on the world, at a
+//! place that may move. [`motion`] has the time laws. The structure is kept in all of it: steps are symplectic at every time, and the
+//! momentum of a free tree is kept to rounding while its joints are driven. Hinge angles have no limits.
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use articulated_fluid::motion::Sinusoid;
+//! use articulated_fluid::{ArticulatedBody, Body, Joint, JointKind, Motion};
+//! use dvi::{Composition, Integrator, State};
+//! use lie::{LieGroup, Mat3, SO3, Vec3};
+//!
+//! let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
+//! let beat = Sinusoid { amplitude: [0.5], frequency: 1.0, ..Sinusoid::constant([0.0]) };
+//! let kind = JointKind::Prescribed(Motion::Hinge {
+//!     axis: Vec3([0.0, 0.0, 1.0]),
+//!     rest: SO3::identity(),
+//!     angle: Arc::new(beat),
+//! });
+//! let points = [Vec3([0.6, 0.0, 0.0]), Vec3([-0.6, 0.0, 0.0])];
+//! let pair = ArticulatedBody::new(&[body; 2], &[Joint::new([0, 1], points, kind)])?;
+//! let g = pair.aligned();
+//! let mut state = State { t: 0.0, mu: g.zero_dual(), g };
+//! let mut integrator = Composition::new::<2>(pair.clone());
+//! for _ in 0..100 {
+//!     integrator.step(&mut state, 0.01)?;
+//! }
+//! // Without momentum it has none for ever, and turns by its beat.
+//! assert!(pair.conserved(&state)?.angular.norm() < 1e-13);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! # Views of a scene
 //! [`Scene::smallest`] leaves out only what is exactly nothing. It steps a scene in other coordinates where these are better, by a

@@ -7,6 +7,9 @@ use super::entry::{Table, Value};
 use super::error::SceneError;
 use super::forms::{self, Surroundings};
 
+/// The parent of a first body that is not free.
+pub(super) const WORLD: &str = "world";
+
 /// A name of a body, and its place.
 pub(super) struct Name<'a> {
     pub text: &'a str,
@@ -50,7 +53,7 @@ fn name<'a>(table: &Table<'a>, earlier: &Names) -> Result<Name<'a>, SceneError> 
     if text.is_empty() || !text.chars().all(allowed) {
         return Err(value.wrong(&format!("is {text:?}")));
     }
-    if text == super::joints::WORLD {
+    if text == WORLD {
         return Err(value.wrong("\"world\" is what the first body may hang on"));
     }
     match earlier.index.get(text) {

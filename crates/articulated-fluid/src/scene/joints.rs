@@ -1,15 +1,12 @@
 //! The joints of a scene: a tree with the first body as its root.
 
-use super::bodies::Names;
+use super::bodies::{Names, WORLD};
 use super::description::{SceneJoint, SceneMount};
 use super::entry::{Table, Value};
 use super::error::SceneError;
 use super::laws::{self, Gaits};
 use super::mobility;
 use super::source::quote;
-
-/// The parent of a first body that is not free.
-pub(super) const WORLD: &str = "world";
 
 /// A joint, and where it names its bodies.
 struct Named<'a> {

@@ -5,8 +5,10 @@ use std::sync::Arc;
 
 use super::entry::{Table, Value};
 use super::error::SceneError;
-use super::mobility::Shared;
 use crate::motion::{Ends, Law, Sinusoid, Spline};
+
+/// A law that may be shared.
+pub(super) type Shared<const N: usize> = Arc<dyn Law<N>>;
 
 /// A gait, as one of its joints sees it.
 #[derive(Clone)]

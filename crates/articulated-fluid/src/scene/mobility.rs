@@ -1,7 +1,5 @@
 //! What the joints of a scene leave free: kinds, angles at the start, springs and motions.
 
-use std::sync::Arc;
-
 use lie::{SO3, Vec3};
 
 use super::description::Mobility;
@@ -9,7 +7,7 @@ use super::entry::{Table, Value};
 use super::error::SceneError;
 use super::laws::{self, Gait};
 use crate::joints::JointKind;
-use crate::motion::Motion;
+use crate::motion::{Motion, Sinusoid};
 
 /// Keys of a joint that only some kinds have.
 const OF_KINDS: [&str; 6] = ["axis", "rest", "angle", "rate", "rest_angle", "stiffness"];
@@ -106,15 +104,12 @@ fn refuse_others(
 }
 
 /// The place of a joint to the world.
-pub(super) fn place(table: &Table) -> Result<crate::motion::Sinusoid<3>, SceneError> {
+pub(super) fn place(table: &Table) -> Result<Sinusoid<3>, SceneError> {
     let at: [f64; 3] = table.require("at_parent")?.array()?;
     let Some(value) = table.get("place") else {
-        return Ok(crate::motion::Sinusoid::constant(at));
+        return Ok(Sinusoid::constant(at));
     };
     let mut law = laws::sinusoid::<3>(&value.table()?)?;
     law.bias = [0, 1, 2].map(|i| law.bias[i] + at[i]);
     Ok(law)
 }
-
-/// A law that may be shared.
-pub(super) type Shared<const N: usize> = Arc<dyn crate::motion::Law<N>>;

@@ -12,8 +12,8 @@
 //! of length 1 to 1e-3 is normalised, and [`Scene::notes`] says so. Anything further off is refused.
 //!
 //! The bodies form a tree: the first body is its root, the head, and every other one hangs by exactly
-//! one ball joint on a body that is listed before it. Any body may be the first: the tree is stepped
-//! on its heaviest one.
+//! one joint on a body that is listed before it. A joint is a ball, a hinge or fixed, or moves as told; the
+//! first body may hang on `"world"`. Any body may be the first: a free tree on ball joints is stepped on its heaviest one.
 //!
 //! A scene that moves in a coordinate plane, with all numbers out of the plane exactly zero, is stepped
 //! in the plane. One in a tilted plane is stepped in space.
