@@ -9,12 +9,9 @@ use dvi::{PilotError, State, StepError};
 
 use crate::clock::Clock;
 use crate::companion::{Companion, next_look};
-use crate::error::SimError;
+use crate::error::{LARGEST_ACCURACY, SimError};
 use crate::method::BoxedIntegrator;
 use crate::run::Run;
-
-/// The largest accuracy that can be asked for: two attitudes at random are hardly farther apart.
-pub const LARGEST_ACCURACY: f64 = 1.0;
 
 /// Candidates that are tried, at most.
 const ATTEMPTS: u32 = 16;

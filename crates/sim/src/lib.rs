@@ -52,11 +52,11 @@ mod simulation;
 pub mod table;
 mod watch;
 
-pub use accuracy::{Checked, LARGEST_ACCURACY};
+pub use accuracy::Checked;
 pub use choice::{Choice, Chosen};
 pub use clock::Clock;
 pub use distance::distance;
-pub use error::{MAX_STEPS, SimError};
+pub use error::{LARGEST_ACCURACY, MAX_STEPS, SimError};
 pub use frame::{Frame, Sample};
 pub use method::{BoxedIntegrator, Method, UnknownMethod};
 pub use report::Report;
