@@ -224,11 +224,9 @@ fn simulate(
         rows.map_or(Ok(()), Rows::end)?;
         Ok(simulation)
     });
+    let t = clock.time(bar.position());
     bar.finish_and_clear();
-    done.unwrap_or_else(|signal| {
-        let t = clock.time(bar.position());
-        Err(CliError::Interrupted { t, signal })
-    })
+    done.unwrap_or_else(|signal| Err(CliError::Interrupted { t, signal }))
 }
 
 /// The trajectory's file in the making.

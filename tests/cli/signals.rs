@@ -37,12 +37,13 @@ fn send(signal: &str, child: &Child) {
 }
 
 #[track_caller]
-fn ends(child: Child, code: i32, words: &str) {
+fn ends(child: Child, code: i32, words: &str) -> String {
     let output = child.wait_with_output().unwrap();
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{message}");
     assert!(message.contains(words), "{message}");
     assert_eq!(text(&output.stdout), "");
+    message.to_owned()
 }
 
 const SIGNALS: [(&str, i32); 3] = [("-INT", 130), ("-TERM", 143), ("-HUP", 129)];
@@ -53,7 +54,10 @@ fn an_interrupted_run_leaves_nothing() {
         let directory = directory();
         let child = started(directory.path(), command(directory.path(), &RUN), 1);
         send(signal, &child);
-        ends(child, code, "interrupted at t =");
+        let message = ends(child, code, "interrupted at t = ");
+        let (_, t) = message.split_once("t = ").unwrap();
+        let t: f64 = t.split(' ').next().unwrap().parse().unwrap();
+        assert!((0.0..1e6).contains(&t), "{message}");
         assert_eq!(files(directory.path()), [""; 0]);
     }
 }
@@ -91,6 +95,11 @@ fn a_signal_that_the_caller_ignores_stays_ignored() {
     shell.current_dir(directory.path()).args(args);
     let child = started(directory.path(), shell, 1);
     send("-HUP", &child);
+    let part = directory.path().join(&files(directory.path())[0]);
+    let size = || fs::metadata(&part).unwrap().len();
+    let before = size();
+    // Some hundreds of thousands of steps later.
+    wait(|| size() > before + 200_000);
     send("-TERM", &child);
     ends(child, 143, "interrupted at t =");
 }
