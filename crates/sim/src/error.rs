@@ -12,9 +12,6 @@ pub const LARGEST_ACCURACY: f64 = 1.0;
 /// More steps than this are taken for a slip: a day of computing and more.
 pub const MAX_STEPS: f64 = 1e11;
 
-/// The largest accuracy that can be asked for: two attitudes at random are hardly farther apart.
-pub const LARGEST_ACCURACY: f64 = 1.0;
-
 /// Why a scene is not run, or not to its end.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
