@@ -36,7 +36,8 @@ impl Scene {
                 ArticulatedBody::held(&bodies, &joints, on, Arc::new(mount.place.clone()))?
             }
         };
-        let model = model.with_stiffness(&self.stiffnesses())?;
+        let mobilities = self.mobilities().map(|(_, mobility)| mobility);
+        let model = Mobility::load(mobilities, model)?;
         if !self.has_weight() {
             return Ok(model);
         }
@@ -44,14 +45,7 @@ impl Scene {
         model.with_gravity(Vec3(self.gravity), &net_masses)
     }
 
-    /// That of the joint to the world first, then in the order of the bodies that hang on the joints.
-    fn stiffnesses(&self) -> Vec<f64> {
-        self.mobilities()
-            .map(|(_, mobility)| mobility.stiffness)
-            .collect()
-    }
-
-    /// What the joints leave free, in the order of the bodies that hang on them.
+    /// What the joints leave free, with the bodies that hang on them, in their order.
     fn mobilities(&self) -> impl Iterator<Item = (usize, &Mobility)> {
         let mut joints: Vec<&SceneJoint> = self.joints.iter().collect();
         joints.sort_by_key(|joint| joint.child);

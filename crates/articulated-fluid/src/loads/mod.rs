@@ -2,12 +2,13 @@
 
 mod gravity;
 mod hinge_spring;
+mod on_tree;
 mod spring;
 
 use lie::{Cotangent, Power, Rn, SO3, Scalar, Vec3};
 
 pub(crate) use gravity::{Weight, moments};
-pub(crate) use hinge_spring::{HingeSpring, HingeSprings};
+pub(crate) use hinge_spring::HingeSprings;
 pub(crate) use spring::{Spring, Springs};
 
 /// The loads of a tree of bodies.

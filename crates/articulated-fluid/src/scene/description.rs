@@ -2,6 +2,7 @@
 
 use lie::Mat3;
 
+use super::mobility::Mobility;
 use super::note::Note;
 use crate::ellipsoid::Ellipsoid;
 use crate::joints::JointKind;
@@ -188,19 +189,6 @@ pub struct SceneMount {
     pub at_child: [f64; 3],
     /// What it leaves free.
     pub mobility: Mobility,
-}
-
-/// What a joint leaves free, where that starts, and the spring against it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mobility {
-    /// What it leaves free.
-    pub kind: JointKind,
-    /// The angle of a hinge at the start, rad.
-    pub angle: f64,
-    /// Its rate at the start, rad/s.
-    pub rate: f64,
-    /// Stiffness $k \ge 0$; 0 for a free joint. Of a ball against turns from where both bodies' frames are aligned, N m; of a hinge N m/rad.
-    pub stiffness: f64,
 }
 
 impl Scene {

@@ -2,12 +2,37 @@
 
 use lie::{SO3, Vec3};
 
-use super::description::Mobility;
 use super::entry::{Table, Value};
 use super::error::SceneError;
 use super::laws::{self, Gait};
+use crate::error::ModelError;
 use crate::joints::JointKind;
 use crate::motion::{Motion, Sinusoid};
+use crate::tree::ArticulatedBody;
+
+/// What a joint leaves free, where that starts, and the spring against it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mobility {
+    /// What it leaves free.
+    pub kind: JointKind,
+    /// The angle of a hinge at the start, rad.
+    pub angle: f64,
+    /// Its rate at the start, rad/s.
+    pub rate: f64,
+    /// Stiffness $k \ge 0$; 0 for a free joint. Of a ball against turns from where both bodies' frames are aligned, N m; of a hinge N m/rad.
+    pub stiffness: f64,
+}
+
+impl Mobility {
+    /// The model with what acts in its joints, of which these are all.
+    pub(crate) fn load<'a>(
+        all: impl Iterator<Item = &'a Self>,
+        model: ArticulatedBody,
+    ) -> Result<ArticulatedBody, ModelError> {
+        let stiffnesses: Vec<f64> = all.map(|mobility| mobility.stiffness).collect();
+        model.with_stiffness(&stiffnesses)
+    }
+}
 
 /// Keys of a joint that only some kinds have.
 const OF_KINDS: [&str; 6] = ["axis", "rest", "angle", "rate", "rest_angle", "stiffness"];

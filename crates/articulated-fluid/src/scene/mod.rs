@@ -39,9 +39,10 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-pub use description::{Form, Mobility, Scene, SceneBody, SceneJoint, SceneMount, StartVelocity};
+pub use description::{Form, Scene, SceneBody, SceneJoint, SceneMount, StartVelocity};
 pub use error::{MOST_BYTES, SceneError};
 pub use keys::{KEYS, Key, reference};
+pub use mobility::Mobility;
 pub use note::{Correction, Note};
 pub use overlap::{Overlap, Overlaps};
 

@@ -2,9 +2,10 @@
 
 use lie::{SO3, Vec3};
 
-use super::description::{Mobility, SceneBody, SceneJoint, SceneMount};
+use super::description::{SceneBody, SceneJoint, SceneMount};
 use super::entry::{Table, Value};
 use super::error::SceneError;
+use super::mobility::Mobility;
 use crate::joints::JointKind;
 
 /// How a body turns: its attitude and its rate, rad/s in its frame.
