@@ -48,7 +48,7 @@ Examples:
     )
 }
 
-/// Lie group variational integrators for rigid bodies on ball joints in a perfect fluid.
+/// Lie group variational integrators for rigid bodies on joints in a perfect fluid.
 ///
 /// The motion is computed on the group of its configurations, so that rotations stay rotations, momenta stay
 /// constant to rounding, and the energy error stays bounded. A scene is a TOML file; one is built in.

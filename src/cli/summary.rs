@@ -150,12 +150,49 @@ impl<'a> Summary<'a> {
             ),
             false => ("", ""),
         };
+        let start = (
+            "energy at the start",
+            format!("{} J", decimal(report.energy_initial_joules)),
+        );
+        let energy = match report.energy_is_kept {
+            true => self.energy(),
+            false => vec![(
+                "energy",
+                format!(
+                    "not kept: what moves as told does work; the largest kinetic energy is {} J",
+                    scientific(report.energy_kinetic_max_joules)
+                ),
+            )],
+        };
+        let momenta = match report.momentum_is_kept {
+            true => vec![
+                (
+                    "linear momentum deviation, worst",
+                    format!("{linear} kg m/s{by_weight}"),
+                ),
+                (
+                    "angular momentum deviation, worst",
+                    format!("{angular} kg m^2/s (relative {share}){about}"),
+                ),
+            ],
+            false => vec![(
+                "momentum",
+                "not kept: the first body hangs on the world".to_owned(),
+            )],
+        };
+        let orthogonality = (
+            "orthogonality error, worst",
+            scientific(report.orthogonality_error_max),
+        );
+        let mut rows = vec![("", String::new()), start];
+        rows.extend(energy.into_iter().chain(momenta));
+        rows.extend([orthogonality, self.residual(), self.iterations()]);
+        rows
+    }
+
+    fn energy(&self) -> Vec<(&'static str, String)> {
+        let report = &self.report;
         vec![
-            ("", String::new()),
-            (
-                "energy at the start",
-                format!("{} J", decimal(report.energy_initial_joules)),
-            ),
             (
                 "energy error, worst",
                 format!(
@@ -172,20 +209,6 @@ impl<'a> Summary<'a> {
                     optional(report.energy_slope_per_second)
                 ),
             ),
-            (
-                "linear momentum deviation, worst",
-                format!("{linear} kg m/s{by_weight}"),
-            ),
-            (
-                "angular momentum deviation, worst",
-                format!("{angular} kg m^2/s (relative {share}){about}"),
-            ),
-            (
-                "orthogonality error, worst",
-                scientific(report.orthogonality_error_max),
-            ),
-            self.residual(),
-            self.iterations(),
         ]
     }
 

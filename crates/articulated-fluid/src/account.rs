@@ -60,10 +60,10 @@ impl Scene {
     /// The account of what was found.
     pub(crate) fn account(&self, found: &Found) -> Account {
         let bodies = self.bodies.len();
-        let full = space(bodies);
+        let full = space(found.model);
         let ((group, dimension), unknowns) = match found.plane {
             Ok(_) => (flat(bodies), bodies),
-            Err(_) => (full.clone(), 3 * bodies),
+            Err(_) => (full.clone(), full.1 - found.model.translation().len()),
         };
         Account {
             group,
@@ -75,8 +75,8 @@ impl Scene {
                 translation(found.model),
                 joints(bodies),
                 self.weight_reduction(found),
-                self.root_reduction(found.root),
-                self.drift_reduction(found.drifts),
+                self.root_reduction(found),
+                self.drift_reduction(found),
                 self.plane_reduction(found),
             ],
         }
@@ -107,8 +107,10 @@ impl Scene {
         }
     }
 
-    fn root_reduction(&self, root: Option<&Rerooted>) -> Reduction {
+    fn root_reduction(&self, found: &Found) -> Reduction {
+        let root = found.root;
         let why = match root {
+            None if !found.model.is_simple() => BALLS.to_owned(),
             Some(root) => format!(
                 "{:?} is heavier than the first body, so the tree hangs on it",
                 self.bodies[root.root()].name
@@ -124,8 +126,10 @@ impl Scene {
         }
     }
 
-    fn drift_reduction(&self, taken: bool) -> Reduction {
+    fn drift_reduction(&self, found: &Found) -> Reduction {
+        let taken = found.drifts;
         let why = match self.worst(|body| anisotropy(&body.total_mass)) {
+            _ if !found.model.is_simple() => BALLS.to_owned(),
             Some(body) => format!(
                 "the mass of {:?} differs by direction, by {:.3e} of it",
                 body.name,
@@ -171,16 +175,26 @@ impl Scene {
     }
 }
 
+/// Why a view is not taken of other trees.
+const BALLS: &str = "only of a free tree on ball joints";
+
 fn translation(model: &ArticulatedBody) -> Reduction {
-    let why = match model.net_weight() == Vec3::zero() {
-        true => "no force depends on where the bodies are: the linear momentum is constant",
-        false => "the weight's impulse is constant, so the equation of x stays linear",
+    let why = match model.is_free() {
+        false => "the first body hangs on the world: there is no x",
+        true => translated(model),
     };
     Reduction {
         name: "translation",
-        taken: true,
+        taken: model.is_free(),
         drops: "x and its momentum from the unknowns; x is rebuilt at each step".to_owned(),
         why: why.to_owned(),
+    }
+}
+
+fn translated(model: &ArticulatedBody) -> &'static str {
+    match model.net_weight() == Vec3::zero() {
+        true => "no force depends on where the bodies are: the linear momentum is constant",
+        false => "the weight's impulse is constant, so the equation of x stays linear",
     }
 }
 
@@ -207,8 +221,24 @@ fn anisotropy(mass: &[[f64; 3]; 3]) -> f64 {
 }
 
 /// The group in space and its dimension.
-fn space(bodies: usize) -> (String, usize) {
-    (product("SO(3)", "R^3", bodies), 3 * bodies + 3)
+fn space(model: &ArticulatedBody) -> (String, usize) {
+    let (roots, hinges) = (model.roots.len(), model.hinges.len());
+    if model.is_simple() {
+        return (product("SO(3)", "R^3", roots), 3 * roots + 3);
+    }
+    let power = |group: &str, times: usize| match times {
+        0 => None,
+        1 => Some(group.to_owned()),
+        _ => Some(format!("{group}^{times}")),
+    };
+    let translation = model.is_free().then(|| "R^3".to_owned());
+    let parts = [power("SO(3)", roots), translation, power("R", hinges)];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    let group = match parts.is_empty() {
+        true => "a point: all moves as told".to_owned(),
+        false => parts.join(" x "),
+    };
+    (group, 3 * roots + model.translation().len() + hinges)
 }
 
 /// The group in a plane and its dimension.

@@ -180,6 +180,16 @@ impl ArticulatedBody {
         !self.has_inner() && self.is_free()
     }
 
+    /// Whether the motion keeps the energy: nothing moves as told.
+    pub fn keeps_energy(&self) -> bool {
+        !self.moves_as_told()
+    }
+
+    /// Whether the motion keeps linear and angular momentum, but for the impulse of the weight: no body hangs on the world.
+    pub fn keeps_momentum(&self) -> bool {
+        self.is_free()
+    }
+
     /// Whether a joint or a place moves as told.
     pub(crate) fn moves_as_told(&self) -> bool {
         let carried = match &self.base {

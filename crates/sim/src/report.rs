@@ -56,6 +56,10 @@ pub struct Report {
     pub sample_every_seconds: Option<f64>,
     /// The number of frames.
     pub samples: u64,
+    /// Whether the motion keeps the energy: joints that move as told do work.
+    pub energy_is_kept: bool,
+    /// Whether it keeps the momenta: a body on the world does not.
+    pub momentum_is_kept: bool,
     /// At t = 0.
     pub energy_initial_joules: f64,
     /// The largest error of the energy, over all steps, as of what follows.
@@ -130,6 +134,8 @@ impl Simulation {
             sample_every_steps: every_steps,
             sample_every_seconds: every_seconds,
             samples: self.frames,
+            energy_is_kept: self.model.keeps_energy(),
+            momentum_is_kept: self.model.keeps_momentum(),
             energy_initial_joules: watch.initial_energy(),
             energy_error_max_joules: watch.energy(),
             energy_kinetic_max_joules: watch.kinetic(),
