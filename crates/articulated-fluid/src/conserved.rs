@@ -1,9 +1,10 @@
 //! What the motion keeps.
 
-use dvi::{Context, ContinuousSystem, State};
+use dvi::{Context, State};
 use lie::{LieGroup, SO3, Vec3};
 
 use crate::error::ModelError;
+use crate::lagrangian::Evaluation;
 use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Velocity};
 
@@ -26,17 +27,20 @@ impl ArticulatedBody {
     /// # Errors
     /// [`ModelError::Shape`] where the state has another number of bodies.
     pub fn velocity(&self, state: &State<Configuration>) -> Result<Velocity, ModelError> {
+        self.check_state(state)?;
         let State { t, g, mu } = state;
-        if !(self.has_shape_of(g) && self.has_shape_of(mu)) {
-            return Err(match self.has_shape_of(g) {
-                true => self.shape_error(mu),
-                false => self.shape_error(g),
-            });
-        }
-        let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
-        let (at, mut work) = (Context::new(*t, &[]), Default::default());
-        self.velocity_and_force::<f64>(at, g, mu, &mut work, &mut xi, &mut tau);
+        let mut xi = g.zero_algebra();
+        let (at, mut work) = (Context::new(*t, &[]), Evaluation::default());
+        self.velocity_into(at, (g, mu), &mut work, &mut xi);
         Ok(xi)
+    }
+
+    fn check_state(&self, State { g, mu, .. }: &State<Configuration>) -> Result<(), ModelError> {
+        match (self.has_shape_of(g), self.has_shape_of(mu)) {
+            (true, true) => Ok(()),
+            (true, false) => Err(self.shape_error(mu)),
+            (false, _) => Err(self.shape_error(g)),
+        }
     }
 
     /// The conserved quantities of a state.
@@ -55,11 +59,28 @@ impl ArticulatedBody {
         &self,
         state: &State<Configuration>,
     ) -> Result<(<Configuration as LieGroup>::Algebra, Conserved), ModelError> {
-        let xi = self.velocity(state)?;
+        let mut xi = state.g.zero_algebra();
+        let kept = self.conserved_in(state, &mut Evaluation::default(), &mut xi)?;
+        Ok((xi, kept))
+    }
+
+    /// Both, the velocity into `xi`, with storage that is kept from call to call.
+    ///
+    /// # Errors
+    /// As [`conserved`](Self::conserved).
+    pub fn conserved_in(
+        &self,
+        state: &State<Configuration>,
+        work: &mut Evaluation,
+        xi: &mut <Configuration as LieGroup>::Algebra,
+    ) -> Result<Conserved, ModelError> {
+        self.check_state(state)?;
         let State { t, g, mu } = state;
+        self.velocity_into(Context::new(*t, &[]), (g, mu), work, xi);
+        let xi = &*xi;
         let mut pose = Pose::default();
         let (r, pose) = self.pose(*t, g, &mut pose);
-        let (momenta, linear) = self.body_momenta((r, pose), &xi);
+        let (momenta, linear) = self.body_momenta((r, pose), xi);
         let x = self.base_position(pose, g);
         let spins: Vec<Vec3> = match self.is_free() {
             true => {
@@ -70,8 +91,8 @@ impl ArticulatedBody {
         };
         let carried = mu.1.first().map_or(linear, |px| px.vec3());
         let kinetic = match self.moves_as_told() {
-            false => 0.5 * Configuration::pair(mu, &xi),
-            true => self.kinetic((r, pose), &xi),
+            false => 0.5 * Configuration::pair(mu, xi),
+            true => self.kinetic((r, pose), xi),
         };
         let conserved = Conserved {
             energy: kinetic + self.potential((r, pose), g),
@@ -92,7 +113,7 @@ impl ArticulatedBody {
         ];
         match checks.iter().find(|(finite, _)| !finite) {
             Some((_, quantity)) => Err(ModelError::NotFinite { quantity }),
-            None => Ok((xi, conserved)),
+            None => Ok(conserved),
         }
     }
 

@@ -67,6 +67,25 @@ impl<S: Scalar> Default for Evaluation<S> {
     }
 }
 
+impl ArticulatedBody {
+    /// The velocity of a momentum, without the forces.
+    pub(crate) fn velocity_into(
+        &self,
+        at: Context<f64>,
+        (g, mu): (&Configuration, &Momentum),
+        work: &mut Evaluation,
+        xi: &mut Velocity,
+    ) {
+        let Evaluation {
+            pose, elimination, ..
+        } = work;
+        let (r, pose) = self.pose(at.t, g, pose);
+        let drive = pose.drive();
+        elimination.factorise_and_begin(self, (r, &pose.c), drive, mu);
+        elimination.finish(self, &r[0], drive, xi);
+    }
+}
+
 impl ContinuousSystem for ArticulatedBody {
     type Workspace<S: Scalar> = Evaluation<S>;
     const INLINE: bool = true;

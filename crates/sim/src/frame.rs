@@ -1,6 +1,8 @@
 //! What is seen of a run at one time.
 
-use articulated_fluid::{ArticulatedBody, Configuration, Conserved, Kinematics, ModelError};
+use articulated_fluid::{
+    ArticulatedBody, Configuration, Conserved, Evaluation, Kinematics, ModelError,
+};
 use dvi::State;
 use lie::{LieGroup, Vec3};
 
@@ -89,15 +91,17 @@ pub struct Sample {
 impl Sample {
     /// The sample of a state; `None` where a quantity is not finite.
     pub fn take(model: &ArticulatedBody, state: &State<Configuration>) -> Option<Self> {
-        Self::of(model, state).ok()
+        let kept = model.conserved(state).ok()?;
+        Some(Self::new(model, state, kept))
     }
 
-    /// The sample of a state, or why there is none.
+    /// The sample of a state, or why there is none, with storage kept from call to call.
     pub(crate) fn of(
         model: &ArticulatedBody,
         state: &State<Configuration>,
+        (work, xi): (&mut Evaluation, &mut <Configuration as LieGroup>::Algebra),
     ) -> Result<Self, ModelError> {
-        let kept = model.conserved(state)?;
+        let kept = model.conserved_in(state, work, xi)?;
         Ok(Self::new(model, state, kept))
     }
 

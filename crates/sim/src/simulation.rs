@@ -1,7 +1,8 @@
 //! A scene on its way, from frame to frame.
 
-use articulated_fluid::{Account, ArticulatedBody, Configuration, Scene, Smallest};
+use articulated_fluid::{Account, ArticulatedBody, Configuration, Evaluation, Scene, Smallest};
 use dvi::{State, StepError};
+use lie::LieGroup;
 
 use crate::choice::{Choice, Chosen, Stage};
 use crate::clock::Clock;
@@ -116,6 +117,8 @@ pub struct Simulation {
     pub(crate) model: ArticulatedBody,
     pub(crate) run: Run<BoxedIntegrator<Configuration>>,
     pub(crate) watch: Watch,
+    /// What watching needs to evaluate the model.
+    watching: (Evaluation, <Configuration as LieGroup>::Algebra),
     pub(crate) estimator: Option<Estimator>,
     /// Frames given out.
     pub(crate) frames: u64,
@@ -150,6 +153,7 @@ impl Simulation {
             plan: *plan,
             chosen,
             watch: Watch::new(&model, first.sample),
+            watching: (Evaluation::default(), first.velocity.clone()),
             estimator,
             frames: 0,
             model,
@@ -221,7 +225,8 @@ impl Simulation {
         let solved = self.run.advance(self.steps() + 1);
         solved.map_err(|error| self.refused(error))?;
         let state = self.run.state();
-        let kept = Sample::of(&self.model, state);
+        let (work, xi) = &mut self.watching;
+        let kept = Sample::of(&self.model, state, (work, xi));
         let sample = kept.map_err(|error| SimError::unmeasured(state.t, error))?;
         self.watch.add(&sample);
         if let Some(estimator) = &mut self.estimator {
