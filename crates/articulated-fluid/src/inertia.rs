@@ -12,7 +12,7 @@ use crate::tree::{ArticulatedBody, Momentum, Velocity};
 
 /// The inertia at a configuration, factorised, with the storage for solves.
 #[derive(Clone, Debug)]
-pub struct Elimination<S = f64> {
+pub(crate) struct Elimination<S = f64> {
     links: Vec<Link<S>>,
     hinges: Vec<HingeFactors<S>>,
     /// $M_0^\ast$ of a free base.

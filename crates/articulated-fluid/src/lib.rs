@@ -24,7 +24,7 @@
 //! |---|---|
 //! | (1)–(3), (6): velocities, kinetic energy | [`Lagrangian::value`](dvi::Lagrangian::value) of [`ArticulatedBody`] |
 //! | (5): added inertia of an ellipsoid | [`Ellipsoid`] |
-//! | (4), (10): inertia, Legendre transform | [`Lagrangian::legendre`](dvi::Lagrangian::legendre), [`Elimination`] |
+//! | (4), (10): inertia, Legendre transform | [`Lagrangian::legendre`](dvi::Lagrangian::legendre), [`DiscreteLagrangian::solve`](dvi::DiscreteLagrangian::solve) |
 //! | (11)–(13), (18)–(20): forces, Hamilton's equations | [`ContinuousSystem`](dvi::ContinuousSystem) of [`ArticulatedBody`] |
 //! | (21): displacement | [`Configuration`] as $f$ |
 //! | (22): discrete Lagrangian | [`DiscreteLagrangian::value`](dvi::DiscreteLagrangian::value) |
