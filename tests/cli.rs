@@ -857,7 +857,7 @@ fn another_scene_than_the_papers_is_run_at_an_accuracy() {
         text(&output.stdout).to_owned()
     };
     let (papers, other) = (shipped("fish-chain"), shipped("one-ellipsoid"));
-    for args in [&[][..], &[&papers]] {
+    for args in [&[][..], &[papers.as_str()]] {
         let summary = run(args);
         assert!(
             summary.contains("0.001 s, the method's default"),
