@@ -192,8 +192,8 @@ struct DefaultStep(Method);
 
 /// The longest easy step of a [`Scout`] on the paper's scene, s.
 const PAPER: f64 = 0.1;
-/// A default step is that of the first so many seconds at least, so that it is the same for all shorter runs.
-const SHORTEST_RUN: f64 = 100.0;
+/// A default step is that of the first so many seconds, so that it does not depend on the length of the run.
+const BEGINNING: f64 = 100.0;
 /// The doublings of a default step, at most: of a motion that hardly moves, and of one that is very fast.
 const DOUBLINGS: [f64; 2] = [-60.0, 4.0];
 /// Steps that have to be solved.
@@ -205,7 +205,7 @@ impl Ask for DefaultStep {
     type Answer = f64;
 
     fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> f64 {
-        let scout = Scout::run(model, start, until.max(SHORTEST_RUN));
+        let scout = Scout::run(model, start, BEGINNING);
         let ratio = scout.step.map_or(f64::INFINITY, |step| step / PAPER);
         let doublings = ratio.log2().round().clamp(DOUBLINGS[0], DOUBLINGS[1]);
         let mut step = self.0.default_step() * doublings.exp2();
