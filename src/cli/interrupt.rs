@@ -30,10 +30,12 @@ pub struct Interrupt {
 impl Interrupt {
     /// Listens from now on to the interrupt key, to requests to terminate, and to a terminal that hangs up.
     ///
-    /// What the caller has set to be ignored stays so, as `nohup` does it.
+    /// A caller may have set the last to be ignored, as `nohup` does: then it stays so. Shells set the key's signal so for what they
+    /// run in the background, where one sent on purpose still counts.
     pub fn listen() -> io::Result<Self> {
         let signal = Arc::new(AtomicUsize::new(0));
-        for number in ENDING.into_iter().filter(|number| !is_ignored(*number)) {
+        let counts = |number: &i32| [SIGINT, SIGTERM].contains(number) || !is_ignored(*number);
+        for number in ENDING.into_iter().filter(counts) {
             // The second one ends the command at once, whatever it is at.
             let came = Arc::new(AtomicBool::new(false));
             flag::register_conditional_shutdown(number, 128 + number, came.clone())?;
