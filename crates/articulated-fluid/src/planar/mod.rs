@@ -24,7 +24,8 @@
 //! // The tail beats about z.
 //! let beat = Power::new(vec![Tangent::zero(), Tangent([0.0, 0.0, 1.0])]);
 //! let ahead = Power::new(vec![Tangent([0.3, 0.0, 0.0])]);
-//! let mut state = fish.state(0.0, fish.aligned(), &(beat, ahead))?;
+//! let no_hinge = Power::new(vec![]);
+//! let mut state = fish.state(0.0, fish.aligned(), &(beat, ahead, no_hinge))?;
 //!
 //! let plane = Plane::find(&fish, &state)?;
 //! let mut integrator = Viewed::new(plane.clone(), Variational::new(plane.model()));

@@ -178,9 +178,9 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "joint",
-        "one table [[joint]] for each body but the first, and one for the first if it is on the world",
+        "one table [[joint]] for each body but the first",
         "none, for a body alone",
-        "a joint: a ball, a hinge or a weld, free or moved as told",
+        "a joint: a ball, a hinge or a weld, free or moved as told; one more may hang the first body on the world",
     ),
     key(
         "joint.name",
@@ -196,9 +196,9 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "joint.child",
-        "the name of a body other than the first, or of the first on \"world\"",
+        "the name of a body other than the first",
         REQUIRED,
-        "the body that hangs on the parent; each is the child of one joint",
+        "the body that hangs on the parent; each is the child of one joint; on \"world\", the first body",
     ),
     key(
         "joint.at_parent",

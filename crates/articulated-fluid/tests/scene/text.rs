@@ -54,14 +54,22 @@ fn unknown_keys_are_refused_with_the_allowed_ones() {
             "[start]",
             "[begin]",
             "f.toml:4:1: begin: unknown key; expected one of `title`, `gravity`, `fluid`, `start`, \
-             `body`, `joint`",
+             `body`, `joint`, `gait`",
         ),
     ]);
 }
 
 #[test]
 fn the_documented_keys_are_those_that_are_read() {
-    for table in ["", "fluid.", "start.", "body.", "body.attitude.", "joint."] {
+    for table in [
+        "",
+        "fluid.",
+        "start.",
+        "body.",
+        "body.attitude.",
+        "joint.",
+        "gait.",
+    ] {
         let text = match table {
             "" => "x = 0".to_owned(),
             "fluid." | "start." => format!("{table}x = 0"),

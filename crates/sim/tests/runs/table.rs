@@ -73,14 +73,20 @@ fn the_columns_are_the_frames_to_the_last_digit() {
     }));
 }
 
+/// A scene with every kind of column.
+fn hinged() -> Scene {
+    let text = include_str!("../../../../scenes/swim/triple-pendulum.toml");
+    Scene::parse(text, "triple-pendulum.toml").unwrap()
+}
+
 #[test]
 fn each_column_is_told_of_and_named_once() {
-    let mut table = Table::with_all_columns(vec![], &falling()).unwrap();
+    let mut table = Table::with_all_columns(vec![], &hinged()).unwrap();
     let plan = Plan {
         until: 0.1,
         ..Plan::default()
     };
-    let mut simulation = Simulation::new(&falling(), &plan).unwrap();
+    let mut simulation = Simulation::new(&hinged(), &plan).unwrap();
     table.row(&simulation.next().unwrap().unwrap()).unwrap();
     let text = String::from_utf8(table.into_inner()).unwrap();
     let (header, _) = read(&text);
