@@ -8,11 +8,13 @@ use lie::{Cotangent, Ldl3, SO3, Scalar, Sym3, Vec3};
 
 use crate::joints::{HingeFactors, Link};
 use crate::pose::Drive;
-use crate::tree::{ArticulatedBody, Momentum, Velocity};
+use crate::tree::{ArticulatedBody, Identity, Momentum, Velocity};
 
 /// The inertia at a configuration, factorised, with the storage for solves.
 #[derive(Clone, Debug)]
 pub(crate) struct Elimination<S = f64> {
+    /// What the links were made for.
+    tree: Option<Identity>,
     links: Vec<Link<S>>,
     hinges: Vec<HingeFactors<S>>,
     /// $M_0^\ast$ of a free base.
@@ -22,6 +24,7 @@ pub(crate) struct Elimination<S = f64> {
 impl<S: Scalar> Default for Elimination<S> {
     fn default() -> Self {
         Self {
+            tree: None,
             links: Vec::new(),
             hinges: Vec::new(),
             base: Ldl3::identity(),
@@ -34,7 +37,7 @@ impl<S: Scalar> Elimination<S> {
     /// Makes a link for each body.
     #[inline(always)]
     fn prepare(&mut self, tree: &ArticulatedBody) {
-        if self.links.len() != tree.nodes.len() {
+        if !self.tree.is_some_and(|made| made.is(tree.identity)) {
             self.make_links(tree);
         }
     }
@@ -44,6 +47,7 @@ impl<S: Scalar> Elimination<S> {
         let bodies = tree.nodes.iter().zip(&tree.masses);
         self.links = bodies.map(|(node, mass)| Link::alone(node, mass)).collect();
         self.hinges = vec![HingeFactors::at_rest(); tree.hinges.len()];
+        self.tree = Some(tree.identity);
     }
 
     /// Eliminates the bodies from the leaves on. Those without children on balls stay as they were made.

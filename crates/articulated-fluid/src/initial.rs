@@ -84,6 +84,11 @@ impl Scene {
         if let Some(root) = root {
             (g, xi) = root.motion(&g, &xi);
         }
+        // A held base has no velocity to choose.
+        let velocity = match self.mount {
+            Some(_) => StartVelocity::Given([0.0; 3]),
+            None => velocity,
+        };
         match velocity {
             StartVelocity::Given(_) => {}
             StartVelocity::ZeroMomentum => stop(model, &g, &mut xi),

@@ -2,14 +2,14 @@
 
 use lie::{SO3, Scalar, Vec3};
 
-use crate::motion;
-use crate::tree::{ArticulatedBody, Base, Configuration};
+use crate::motion::{self, Motion};
+use crate::tree::{ArticulatedBody, Base, Configuration, Identity};
 
 /// Where the bodies are at a time, and what moves as told.
 #[derive(Clone, Debug)]
 pub(crate) struct Pose<S> {
-    /// The time that the motions were read at last.
-    read: Option<S>,
+    /// The tree and the time that the motions were read of at last.
+    read: Option<(Identity, S)>,
     /// $R_i$; empty where the configuration has them all.
     pub(crate) r: Vec<SO3<S>>,
     /// $C_i = R_p^T R_i$ of hinges and motions.
@@ -98,12 +98,25 @@ impl ArticulatedBody {
     /// $C_i$ and $a_i$ of all motions, and where the base is held, unless they were read for this time and tree.
     #[inline(always)]
     pub(crate) fn read_motions_at<S: Scalar>(&self, t: S, pose: &mut Pose<S>) {
-        if pose.read != Some(t) || pose.c.len() != self.nodes.len() {
+        let known = |(tree, at): (Identity, S)| tree.is(self.identity) && at == t;
+        if !pose.read.is_some_and(known) {
             self.read_motions(t, pose);
         }
     }
 
-    /// Whether all motions are known at the time `t`: a table ends.
+    /// From when to when all that moves as told is told, s: tables are not for ever.
+    pub fn told(&self) -> [f64; 2] {
+        let place = match &self.base {
+            Base::Free => None,
+            Base::Held { place, .. } => Some(place.told()),
+        };
+        let all = self.motions.iter().map(Motion::told).chain(place);
+        all.fold([f64::NEG_INFINITY, f64::INFINITY], |[a, b], [from, to]| {
+            [a.max(from), b.min(to)]
+        })
+    }
+
+    /// Whether all motions are numbers at the time `t`.
     pub(crate) fn knows(&self, t: f64) -> bool {
         let known = self.motions.iter().all(|motion| motion.at(t).1.is_finite());
         let placed = match &self.base {
@@ -124,6 +137,6 @@ impl ArticulatedBody {
         if let Base::Held { place, .. } = &self.base {
             pose.place = motion::at(place.as_ref(), t).map(Vec3);
         }
-        pose.read = Some(t);
+        pose.read = Some((self.identity, t));
     }
 }

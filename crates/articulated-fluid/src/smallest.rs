@@ -109,7 +109,11 @@ impl Scene {
         let drift = Comoving::new(&model).filter(|_| moves(&model, &start));
         if let Some(view) = &drift {
             // Of the velocities alone, so that the drift changes no digit of it.
-            start = self.start(&model, root.as_ref(), StartVelocity::ZeroMomentum)?;
+            let still = match self.velocity {
+                StartVelocity::NoMomentum => StartVelocity::NoMomentum,
+                _ => StartVelocity::ZeroMomentum,
+            };
+            start = self.start(&model, root.as_ref(), still)?;
             start.g.1[0] = R3::identity();
             model = view.model();
         }

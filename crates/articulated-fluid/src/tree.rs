@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use lie::{AlgebraOver, DualOver, Mat3, Power, R3, Rn, SO3, Vec3};
 
@@ -54,6 +55,30 @@ pub struct ArticulatedBody {
     pub(crate) motions: Vec<Motion>,
     /// The bodies whose attitudes are unknowns.
     pub(crate) roots: Vec<usize>,
+    pub(crate) identity: Identity,
+}
+
+/// What tells a tree from others, so that storage is not taken for another's; equal trees may differ in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Identity(u64);
+
+impl Identity {
+    fn new() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+
+    /// Whether both are of one tree.
+    #[inline(always)]
+    pub(crate) fn is(self, other: Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl PartialEq for Identity {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// What the first body hangs on.
@@ -129,6 +154,7 @@ impl ArticulatedBody {
             motions: vec![],
             roots: vec![],
             base: base.clone(),
+            identity: Identity::new(),
         };
         made.hang(&bodies[0], (0, [Vec3::zero(), at_child]), first)?;
         for (body, joint) in bodies[1..].iter().zip(&joints) {
@@ -152,7 +178,7 @@ impl ArticulatedBody {
     ) -> Result<(), ModelError> {
         let index = self.nodes.len();
         if let JointKind::Hinge(hinge) = kind
-            && ((hinge.axis.norm() - 1.0).abs() > 1e-12 || !hinge.rest_angle.is_finite())
+            && !hinge.is_sound()
         {
             return Err(ModelError::Hinge { body: index });
         }

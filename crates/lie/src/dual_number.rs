@@ -190,6 +190,10 @@ impl<T: Scalar> Scalar for DualNumber<T> {
         })
     }
     fn smooth<const N: usize>(self, f: &dyn Fn(f64, u32) -> [f64; N]) -> [Self; N] {
+        if self.partials.iter().all(|p| p.magnitude() == 0.0) {
+            // The slope of a constant is not asked for: it may not be known.
+            return self.value.smooth(f).map(|y| Self::new(y, |_| T::zero()));
+        }
         let slopes = self.value.smooth(&|x, k| f(x, k + 1));
         let values = self.value.smooth(f);
         from_fn(|i| self.chain(values[i], slopes[i]))

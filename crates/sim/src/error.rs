@@ -53,6 +53,19 @@ pub enum SimError {
         /// How many samples that would be.
         count: f64,
     },
+    /// A motion is not told from the start to the end of the run.
+    #[error(
+        "what moves as told is told from {} s to {} s, and the run goes from 0 s to {} s; take a shorter --until, a longer table, or repeat = true",
+        decimal(*from), decimal(*to), decimal(*until)
+    )]
+    Untold {
+        /// When the motions begin, s.
+        from: f64,
+        /// When they end, s.
+        to: f64,
+        /// The time to run to, s.
+        until: f64,
+    },
     /// No stages and step were found for the accuracy.
     #[error(transparent)]
     Pilot(#[from] PilotError),

@@ -135,6 +135,11 @@ impl Simulation {
     /// [`SimError`].
     pub fn new(scene: &Scene, plan: &Plan) -> Result<Self, SimError> {
         let (model, smallest) = (scene.model()?, scene.smallest()?);
+        let [from, to] = model.told();
+        if plan.until > to || from > 0.0 {
+            let until = plan.until;
+            return Err(SimError::Untold { from, to, until });
+        }
         let stage = plan.on(scene, &model, &smallest);
         let start = scene.initial_state()?;
         let first = Frame::new(&model, start.clone());

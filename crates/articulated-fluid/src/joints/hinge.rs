@@ -16,6 +16,12 @@ pub struct Hinge {
 }
 
 impl Hinge {
+    /// Whether the axis is a unit vector, the attitude a rotation, and the angle finite.
+    pub(crate) fn is_sound(&self) -> bool {
+        let off = (self.axis.norm() - 1.0).abs();
+        off <= 1e-12 && self.rest.orthogonality_error() <= 1e-6 && self.rest_angle.is_finite()
+    }
+
     /// $\exp(q \hat s)$.
     #[inline(always)]
     fn turn<S: Scalar>(&self, q: S) -> SO3<S> {

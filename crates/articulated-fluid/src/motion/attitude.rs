@@ -75,9 +75,23 @@ impl PartialEq for Motion {
 }
 
 impl Motion {
-    /// Whether it does anything: a weld does not.
+    /// Whether it does anything: a weld does not, nor a constant law.
     pub fn is_driven(&self) -> bool {
-        !matches!(self, Self::Fixed(_))
+        match self {
+            Self::Fixed(_) => false,
+            Self::Hinge { angle, .. } => !angle.is_constant(),
+            Self::Ball { turn, .. } => !turn.is_constant(),
+            Self::Function(_) => true,
+        }
+    }
+
+    /// From when to when it is [told](Law::told), s.
+    pub fn told(&self) -> [f64; 2] {
+        match self {
+            Self::Hinge { angle, .. } => angle.told(),
+            Self::Ball { turn, .. } => turn.told(),
+            Self::Fixed(_) | Self::Function(_) => [f64::NEG_INFINITY, f64::INFINITY],
+        }
     }
 
     /// $Q(t)$ and $a(t)$, rad/s in the body's frame.

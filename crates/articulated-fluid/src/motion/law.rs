@@ -9,6 +9,11 @@ pub trait Law<const N: usize>: Debug + Send + Sync {
     /// The `k`-th derivatives at `t` seconds, per second to the power of `k`; where one is not known, not a number.
     fn derivative(&self, t: f64, k: u32) -> [f64; N];
 
+    /// From when to when it is told, s; a table is not for ever. Beyond, it goes on somehow.
+    fn told(&self) -> [f64; 2] {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    }
+
     /// Whether nothing moves.
     fn is_constant(&self) -> bool {
         false

@@ -83,7 +83,9 @@ impl<const N: usize> Sinusoid<N> {
 
 impl<const N: usize> Law<N> for Sinusoid<N> {
     fn is_constant(&self) -> bool {
-        self.amplitude == [0.0; N] && self.harmonics.is_empty()
+        let zero = |wave: &[f64; N]| *wave == [0.0; N];
+        let silent = zero(&self.amplitude) && self.harmonics.iter().all(|[a, _]| zero(a));
+        silent || self.frequency == 0.0 && self.ramp == 0.0
     }
 
     /// By the rule of Leibniz.

@@ -7,7 +7,7 @@ use super::law::Law;
 /// How a spline goes on beyond its points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// No curvature at the ends; defined between the first and the last time only.
+    /// No curvature at the ends, beyond which it goes on straight.
     Natural,
     /// The last point is the first one again, a period later.
     Periodic,
@@ -47,7 +47,7 @@ pub enum SplineError {
 
 /// The cubic spline through given points.
 ///
-/// Outside of its points it is not a number, unless it is periodic.
+/// It is [told](Law::told) between its first and its last point, or for ever if it is periodic.
 ///
 /// ```
 /// use articulated_fluid::motion::{Ends, Law, Spline};
@@ -146,12 +146,30 @@ impl<const N: usize> Law<N> for Spline<N> {
         let [first, last] = self.span();
         let t = match self.ends {
             Ends::Periodic => first + (t - first).rem_euclid(last - first),
-            // A step's last stage may pass the end by rounding.
-            Ends::Natural if t < first - 1e-9 || t > last + 1e-9 => return [f64::NAN; N],
             Ends::Natural => t,
         };
         let after = self.times.partition_point(|knot| *knot <= t);
-        self.segment(after.clamp(1, self.times.len() - 1) - 1, t, k)
+        let segment = after.clamp(1, self.times.len() - 1) - 1;
+        let inside = t.clamp(first, last);
+        if inside == t {
+            return self.segment(segment, t, k);
+        }
+        let slope = self.segment(segment, inside, 1);
+        match k {
+            0 => {
+                let end = self.segment(segment, inside, 0);
+                core::array::from_fn(|i| end[i] + slope[i] * (t - inside))
+            }
+            1 => slope,
+            _ => [0.0; N],
+        }
+    }
+
+    fn told(&self) -> [f64; 2] {
+        match self.ends {
+            Ends::Periodic => [f64::NEG_INFINITY, f64::INFINITY],
+            Ends::Natural => self.span(),
+        }
     }
 }
 

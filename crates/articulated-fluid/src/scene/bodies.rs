@@ -49,8 +49,7 @@ pub(super) fn check<'a>(
 fn name<'a>(table: &Table<'a>, earlier: &Names) -> Result<Name<'a>, SceneError> {
     let value = table.require("name")?;
     let text = value.text()?;
-    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_/.".contains(c);
-    if text.is_empty() || !text.chars().all(allowed) {
+    if !is_name(text) {
         return Err(value.wrong(&format!("is {text:?}")));
     }
     if text == WORLD {
@@ -63,4 +62,10 @@ fn name<'a>(table: &Table<'a>, earlier: &Names) -> Result<Name<'a>, SceneError> 
         }
         None => Ok(Name { text, value }),
     }
+}
+
+/// Whether a text may name a body or a joint.
+pub(super) fn is_name(text: &str) -> bool {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_/.".contains(c);
+    !text.is_empty() && text.chars().all(allowed)
 }

@@ -1,6 +1,8 @@
 //! The joints of a scene: a tree with the first body as its root.
 
-use super::bodies::{Names, WORLD};
+use std::collections::HashMap;
+
+use super::bodies::{Names, WORLD, is_name};
 use super::description::{SceneJoint, SceneMount};
 use super::entry::{Table, Value};
 use super::error::SceneError;
@@ -62,16 +64,24 @@ fn name<'a>(table: &Table<'a>) -> Result<&'a str, SceneError> {
     }
 }
 
+/// Refuses two joints of one name; those of one child are refused as such.
 fn unique(tables: &[Table], names: &[&str]) -> Result<(), SceneError> {
-    let mut seen = std::collections::HashSet::new();
+    let mut seen: HashMap<&str, bool> = HashMap::new();
     for (table, name) in tables.iter().zip(names) {
-        // Two joints of one child are refused as such.
-        if let Some(value) = table.get("name")
-            && !seen.insert(*name)
+        let own = table.get("name");
+        if let Some(value) = &own
+            && !is_name(name)
         {
-            return Err(value.wrong(&format!("{name:?} is another joint")));
+            return Err(value.wrong(&format!("is {name:?}")));
         }
-        seen.insert(*name);
+        let is_own = own.is_some();
+        if let Some(other) = seen.insert(name, is_own)
+            && (other || is_own)
+        {
+            let value = own.map_or_else(|| table.require("child"), Ok)?;
+            let what = format!("{name:?} is the name of another joint; expected another name");
+            return Err(value.fail(&what));
+        }
     }
     Ok(())
 }

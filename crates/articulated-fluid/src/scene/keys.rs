@@ -184,7 +184,7 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "joint.name",
-        "a string that no other joint has as its name",
+        "a name of letters a-z A-Z, digits, - _ / and . that no other joint has",
         "the name of the child",
         "name of the joint in gaits and in results",
     ),

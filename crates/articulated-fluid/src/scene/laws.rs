@@ -182,6 +182,11 @@ fn rows<const N: usize>(
     let header = reader
         .headers()
         .map_err(|error| format!("{shown}: {error}"))?;
+    if header.iter().all(|name| name.parse::<f64>().is_ok()) {
+        return Err(format!(
+            "the first row of {shown} has numbers; expected names of the columns"
+        ));
+    }
     let places: Vec<usize> = match names {
         None => (0..=N).collect(),
         Some(names) => {

@@ -88,7 +88,7 @@ fn hinge(table: &Table, rest: SO3, gait: Option<&Gait>) -> Result<JointKind, Sce
         return Err(value.wrong("has length 0"));
     }
     // Brought to size one first: squares overflow and underflow.
-    let kind = JointKind::hinge(Vec3(axis) * (1.0 / largest), rest);
+    let kind = JointKind::hinge(Vec3(axis.map(|x| x / largest)), rest);
     let JointKind::Hinge(mut hinge) = kind else {
         return Ok(kind);
     };

@@ -15,6 +15,16 @@ struct Turning {
     omega: Vec3,
 }
 
+impl Turning {
+    /// That of the world.
+    fn world() -> Self {
+        Self {
+            r: SO3::identity(),
+            omega: Vec3::zero(),
+        }
+    }
+}
+
 /// Sets the attitudes of the `bodies` that follow from their joints, and the absolute rates of all; each body comes after its parent.
 ///
 /// Where the whole `floats`, the rates are those beside a head that does not turn.
@@ -30,18 +40,13 @@ pub(super) fn set(
         on[joint.child] = Some((Some(joint.parent), &joint.mobility));
     }
     for (index, (table, on)) in tables.iter().zip(on).enumerate() {
-        let parent = on
-            .and_then(|(parent, _)| parent)
-            .map(|p| turning(&bodies[p]));
+        let parent =
+            on.map(|(parent, _)| parent.map_or_else(Turning::world, |p| turning(&bodies[p])));
         let follows = on.map(|(_, mobility)| mobility).and_then(relative);
         let turning = match follows {
             Some((c, rate)) => {
                 refuse_own(table)?;
-                let world = Turning {
-                    r: SO3::identity(),
-                    omega: Vec3::zero(),
-                };
-                let Turning { r, omega } = parent.unwrap_or(world);
+                let Turning { r, omega } = parent.unwrap_or_else(Turning::world);
                 let r = SO3::from_matrix_unchecked(*r.matrix() * *c.matrix());
                 bodies[index].attitude = r.to_quaternion();
                 c.inverse_rotate(omega) + rate

@@ -2,6 +2,7 @@
 
 #[path = "../model/by_duals.rs"]
 mod by_duals;
+mod laws;
 mod strokes;
 mod trees;
 mod vectors;

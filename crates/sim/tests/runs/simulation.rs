@@ -297,3 +297,36 @@ fn a_simulation_goes_to_another_thread() {
     let frames = std::thread::spawn(move || simulation.count()).join();
     assert_eq!(frames.unwrap(), 11);
 }
+
+#[test]
+fn a_run_beyond_the_end_of_a_table_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(
+        directory.path().join("stroke.csv"),
+        "t,angle\n0,0\n1,0.5\n2,0.1\n",
+    )
+    .unwrap();
+    let text = "
+        fluid.density = 1000
+        body = [{ name = 'head', semi_axes = [0.3, 0.05, 0.1] }, { name = 'tail', semi_axes = [0.2, 0.03, 0.1] }]
+        joint = [{ parent = 'head', child = 'tail', at_parent = [-0.32, 0, 0], at_child = [0.22, 0, 0], type = 'hinge', axis = [0, 0, 1],
+          motion = { file = 'stroke.csv' } }]
+    ";
+    let path = directory.path().join("scene.toml");
+    std::fs::write(&path, text).unwrap();
+    let scene = Scene::load(&path).unwrap();
+    let run = |until: f64| {
+        let plan = Plan {
+            choice: Choice::Accuracy(1e-6),
+            until,
+            ..Plan::default()
+        };
+        Simulation::new(&scene, &plan).map(|mut run| run.by_ref().all(|frame| frame.is_ok()))
+    };
+    let refused = run(2.5).expect_err("no motion is told there");
+    assert!(
+        matches!(refused, SimError::Untold { to: 2.0, .. }),
+        "{refused}"
+    );
+    assert_eq!(run(2.0), Ok(true));
+}
