@@ -36,25 +36,13 @@ impl Scene {
                 ArticulatedBody::held(&bodies, &joints, on, Arc::new(mount.place.clone()))?
             }
         };
-        let mobilities = self.mobilities().map(|(_, mobility)| mobility);
+        let mobilities = self.on_joints().map(|(.., mobility)| mobility);
         let model = Mobility::load(mobilities, model)?;
         if !self.has_weight() {
             return Ok(model);
         }
         let net_masses: Vec<f64> = self.bodies.iter().map(|body| body.net_mass).collect();
         model.with_gravity(Vec3(self.gravity), &net_masses)
-    }
-
-    /// What the joints leave free, with the bodies that hang on them, in their order.
-    fn mobilities(&self) -> impl Iterator<Item = (usize, &Mobility)> {
-        let mut joints: Vec<&SceneJoint> = self.joints.iter().collect();
-        joints.sort_by_key(|joint| joint.child);
-        let mount = self.mount.iter().map(|mount| (0, &mount.mobility));
-        mount.chain(
-            joints
-                .into_iter()
-                .map(|joint| (joint.child, &joint.mobility)),
-        )
     }
 
     /// Whether gravity acts on a body that is heavier or lighter than what it displaces.
@@ -106,22 +94,22 @@ impl Scene {
         Ok(State { t: 0.0, g, mu })
     }
 
-    /// What a joint or a free base leaves free of body `i`.
-    fn kind(&self, i: usize) -> &JointKind {
-        self.mobility(i)
-            .map_or(&JointKind::Ball, |mobility| &mobility.kind)
-    }
-
-    /// The bodies whose attitudes are unknowns.
+    /// The bodies whose attitudes are unknowns: free, or on balls.
     fn roots(&self) -> impl Iterator<Item = &SceneBody> {
-        let bodies = self.bodies.iter().enumerate();
-        bodies.filter_map(|(i, body)| (*self.kind(i) == JointKind::Ball).then_some(body))
+        let mut are_roots = vec![true; self.bodies.len()];
+        for (i, _, mobility) in self.on_joints() {
+            if let Some(is_root) = are_roots.get_mut(i) {
+                *is_root = mobility.kind == JointKind::Ball;
+            }
+        }
+        let bodies = self.bodies.iter().zip(are_roots);
+        bodies.filter_map(|(body, is_root)| is_root.then_some(body))
     }
 
     /// What the hinges start with.
     fn hinges(&self) -> impl Iterator<Item = &Mobility> {
-        let all = self.mobilities().map(|(_, mobility)| mobility);
-        all.filter(|mobility| matches!(mobility.kind, JointKind::Hinge(_)))
+        let all = self.on_joints().map(|(.., mobility)| mobility);
+        all.filter(|mobility| mobility.is_hinge())
     }
 
     fn configuration(&self) -> Configuration {

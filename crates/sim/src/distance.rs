@@ -3,8 +3,10 @@
 use articulated_fluid::Configuration;
 use lie::SO3;
 
-/// The largest angle between two attitudes of a body, rad, the distance of the first mass centres, m, or the sum of the angles between
-/// hinges, rad, whichever number is largest; infinite where one is not a number.
+/// How far two configurations are apart: the largest of three numbers, infinite where one is not a number.
+///
+/// They are the largest angle between two attitudes, rad, the distance of the first mass centres, m, and the sum of the differences of
+/// hinge angles, rad.
 pub fn distance(a: &Configuration, b: &Configuration) -> f64 {
     let angles = a.0.iter().zip(b.0.iter()).map(|(a, b)| angle(a, b));
     let distances = a.1.iter().zip(b.1.iter());

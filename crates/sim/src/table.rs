@@ -44,43 +44,27 @@ struct Names {
     hinges: Vec<String>,
 }
 
-const fn whole(
-    names: &'static [&'static str],
-    meaning: &'static str,
-    read: fn(&Seen, &mut [f64]),
-) -> Column {
+type Labels = &'static [&'static str];
+
+const fn column(names: Labels, meaning: &'static str, read: Read) -> Column {
     Column {
         names,
         meaning,
         is_extra: false,
-        read: Read::Whole(read),
+        read,
     }
 }
 
-const fn body(
-    names: &'static [&'static str],
-    meaning: &'static str,
-    read: fn(&Seen, usize, &mut [f64]),
-) -> Column {
-    Column {
-        names,
-        meaning,
-        is_extra: false,
-        read: Read::Body(read),
-    }
+const fn whole(names: Labels, meaning: &'static str, read: fn(&Seen, &mut [f64])) -> Column {
+    column(names, meaning, Read::Whole(read))
 }
 
-const fn hinge(
-    names: &'static [&'static str],
-    meaning: &'static str,
-    read: fn(&Seen, usize, &mut [f64]),
-) -> Column {
-    Column {
-        names,
-        meaning,
-        is_extra: false,
-        read: Read::Hinge(read),
-    }
+const fn body(names: Labels, meaning: &'static str, read: fn(&Seen, usize, &mut [f64])) -> Column {
+    column(names, meaning, Read::Body(read))
+}
+
+const fn hinge(names: Labels, meaning: &'static str, read: fn(&Seen, usize, &mut [f64])) -> Column {
+    column(names, meaning, Read::Hinge(read))
 }
 
 const fn extra(column: Column) -> Column {

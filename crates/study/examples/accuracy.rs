@@ -1,9 +1,11 @@
 //! Whether a run keeps the accuracy that it was asked for: random scenes, horizons and accuracies against references of two families.
 //!
-//! `cargo run --release -p lgvi-study --example accuracy [SCENES [FIRST]]`: by default 100 scenes, from number 0. One body free in a
-//! vacuum, falling or drifting in a fluid, and trees of up to six bodies, in turns; horizons of 1 s to 10 000 s, to 100 s of what falls and of trees, accuracies of 1e-2 to 1e-9.
-//! The references are the explicit pair 8(5,3) in charts at 1e-13, and gauss-8 in steps that are shorter by a half than the run's; where
-//! they differ by more than a fifth of what was asked, the truth is unknown.
+//! `cargo run --release -p lgvi-study --example accuracy [SCENES [FIRST]]`: by default 100 scenes, from number 0.
+//! The scenes are one body, free in a vacuum, falling or drifting in a fluid, and trees of up to six bodies, in turns.
+//! Horizons go from 1 s to 10 000 s, to 100 s of what falls and of trees; accuracies from 1e-2 to 1e-9.
+//!
+//! One reference is the explicit pair 8(5,3) in charts at 1e-13. The other is gauss-8 in steps shorter by a half than the run's.
+//! Where they differ by more than a fifth of what was asked, the truth is unknown.
 
 #[path = "laws/random.rs"]
 mod random;

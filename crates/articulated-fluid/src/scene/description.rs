@@ -5,7 +5,6 @@ use lie::Mat3;
 use super::mobility::Mobility;
 use super::note::Note;
 use crate::ellipsoid::Ellipsoid;
-use crate::joints::JointKind;
 use crate::motion::Sinusoid;
 
 /// A difference of mass and displaced mass that is the rounding of density times volume and of the numbers read, relative.
@@ -194,31 +193,17 @@ pub struct SceneMount {
 impl Scene {
     /// The names of the joints that are free hinges, in the order of the model.
     pub fn free_hinges(&self) -> impl Iterator<Item = &str> {
-        let mut joints: Vec<&SceneJoint> = self.joints.iter().collect();
-        joints.sort_by_key(|joint| joint.child);
-        let mount = self
-            .mount
-            .iter()
-            .map(|mount| (&mount.name, &mount.mobility));
-        let joints = joints
-            .into_iter()
-            .map(|joint| (&joint.name, &joint.mobility));
-        mount
-            .chain(joints)
-            .filter_map(|(name, mobility)| match mobility.kind {
-                JointKind::Hinge(_) => Some(name.as_str()),
-                _ => None,
-            })
+        let hinges = self.on_joints().filter(|(.., on)| on.is_hinge());
+        hinges.map(|(_, name, _)| name)
     }
 
-    /// What the joint of body `i` leaves free; `None` of a free base.
-    pub(crate) fn mobility(&self, i: usize) -> Option<&Mobility> {
-        match i {
-            0 => self.mount.as_ref().map(|mount| &mount.mobility),
-            i => {
-                let joint = self.joints.iter().find(|joint| joint.child == i);
-                joint.map(|joint| &joint.mobility)
-            }
-        }
+    /// The bodies on joints in their order, with the joint's name and what it leaves free.
+    pub(crate) fn on_joints(&self) -> impl Iterator<Item = (usize, &str, &Mobility)> {
+        let mut joints: Vec<&SceneJoint> = self.joints.iter().collect();
+        joints.sort_by_key(|joint| joint.child);
+        let mount = self.mount.iter();
+        let mount = mount.map(|mount| (0, &mount.name[..], &mount.mobility));
+        let joints = joints.into_iter();
+        mount.chain(joints.map(|joint| (joint.child, &joint.name[..], &joint.mobility)))
     }
 }

@@ -24,6 +24,11 @@ pub struct Mobility {
 }
 
 impl Mobility {
+    /// Whether it is an angle.
+    pub(crate) fn is_hinge(&self) -> bool {
+        matches!(self.kind, JointKind::Hinge(_))
+    }
+
     /// The model with what acts in its joints, of which these are all.
     pub(crate) fn load<'a>(
         all: impl Iterator<Item = &'a Self>,
