@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use sim::method::Family;
 use sim::number::{decimal, scientific};
-use sim::{Report, Simulation};
+use sim::{DriveReport, Report, Simulation};
 
 use super::print::one_line;
 
@@ -154,16 +154,6 @@ impl<'a> Summary<'a> {
             "energy at the start",
             format!("{} J", decimal(report.energy_initial_joules)),
         );
-        let energy = match report.energy_is_kept {
-            true => self.energy(),
-            false => vec![(
-                "energy",
-                format!(
-                    "not kept: what moves as told does work; the largest kinetic energy is {} J",
-                    scientific(report.energy_kinetic_max_joules)
-                ),
-            )],
-        };
         let momenta = match report.momentum_is_kept {
             true => vec![
                 (
@@ -185,16 +175,46 @@ impl<'a> Summary<'a> {
             scientific(report.orthogonality_error_max),
         );
         let mut rows = vec![("", String::new()), start];
-        rows.extend(energy.into_iter().chain(momenta));
+        rows.extend(
+            self.drives()
+                .into_iter()
+                .chain(self.energy())
+                .chain(momenta),
+        );
         rows.extend([orthogonality, self.residual(), self.iterations()]);
         rows
     }
 
+    /// What drives have done, and the one that has done most.
+    fn drives(&self) -> Vec<(&'static str, String)> {
+        let drives = &self.report.drives;
+        let by_work = |a: &&DriveReport, b: &&DriveReport| {
+            a.work_joules.abs().total_cmp(&b.work_joules.abs())
+        };
+        let Some(most) = drives.iter().max_by(by_work) else {
+            return vec![];
+        };
+        let total: f64 = drives.iter().map(|drive| drive.work_joules).sum();
+        let text = format!(
+            "{} J in all; most by {:?}: {} J, up to {} W and {} N m",
+            scientific(total),
+            most.joint,
+            scientific(most.work_joules),
+            scientific(most.power_max_watts),
+            scientific(most.torque_max_newton_metres),
+        );
+        vec![("work of what moves as told", text)]
+    }
+
     fn energy(&self) -> Vec<(&'static str, String)> {
         let report = &self.report;
+        let (worst, slope) = match report.energy_is_kept {
+            true => ("energy error, worst", "energy error, slope"),
+            false => ("energy less work, error", "energy less work, slope"),
+        };
         vec![
             (
-                "energy error, worst",
+                worst,
                 format!(
                     "{} J ({} of the run's largest kinetic energy, {} J)",
                     scientific(report.energy_error_max_joules),
@@ -203,7 +223,7 @@ impl<'a> Summary<'a> {
                 ),
             ),
             (
-                "energy error, slope",
+                slope,
                 format!(
                     "{} per second (relative)",
                     optional(report.energy_slope_per_second)

@@ -232,14 +232,26 @@ impl ArticulatedBody {
         (p, r[0].rotate(momenta[0]))
     }
 
-    /// $n_i = p_i + \sum_k C_k n_k$ over what hangs on $i$ by no ball: of a root $n$, of a hinge $s \cdot n$, (S4).
-    fn gather_momenta(&self, pose: &Pose<f64>, (mut n, linear): (PerBody<Vec3>, Vec3)) -> Momentum {
-        let mut momenta = self.aligned().zero_dual();
-        for (i, node) in self.nodes.iter().enumerate().rev() {
-            if self.project(i, n[i], &mut momenta) {
-                let on_parent = pose.c[i].rotate(n[i]);
-                n[node.parent] += on_parent;
+    /// $n_i = p_i + \sum_k C_k n_k$ over what hangs on $i$ by no ball, (S4).
+    pub(crate) fn outer_momenta(
+        &self,
+        pose: &Pose<f64>,
+        mut momenta: PerBody<Vec3>,
+    ) -> PerBody<Vec3> {
+        for (i, node) in self.nodes.iter().enumerate().skip(1).rev() {
+            if !node.role.is_root() {
+                let on_parent = pose.c[i].rotate(momenta[i]);
+                momenta[node.parent] += on_parent;
             }
+        }
+        momenta
+    }
+
+    /// Of a root $n$, of a hinge $s \cdot n$, (S4).
+    fn gather_momenta(&self, pose: &Pose<f64>, (p, linear): (PerBody<Vec3>, Vec3)) -> Momentum {
+        let mut momenta = self.aligned().zero_dual();
+        for (i, n) in self.outer_momenta(pose, p).iter().enumerate() {
+            self.project(i, *n, &mut momenta);
         }
         if self.is_free() {
             momenta.1[0] = linear.into();

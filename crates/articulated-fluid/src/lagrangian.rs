@@ -51,10 +51,10 @@ impl Lagrangian for ArticulatedBody {
 /// Storage of an evaluation.
 #[derive(Clone, Debug)]
 pub struct Evaluation<S = f64> {
-    pose: Pose<S>,
+    pub(crate) pose: Pose<S>,
     elimination: Elimination<S>,
-    /// On each body about its joint.
-    torques: Vec<Cotangent<3, S>>,
+    /// On each body about its joint, and on all that hangs on it by no ball.
+    pub(crate) torques: Vec<Cotangent<3, S>>,
 }
 
 impl<S: Scalar> Default for Evaluation<S> {

@@ -85,6 +85,7 @@ mod account;
 mod conserved;
 mod discrete;
 mod displaced;
+mod drive;
 pub mod ellipsoid;
 mod error;
 #[doc = include_str!("formulas.md")]
@@ -107,6 +108,7 @@ mod views;
 pub use account::{Account, Reduction};
 pub use conserved::Conserved;
 pub use discrete::StepWorkspace;
+pub use drive::Drive;
 pub use ellipsoid::{Ellipsoid, EllipsoidError};
 pub use error::ModelError;
 pub use joints::{Hinge, JointKind};

@@ -218,11 +218,15 @@ impl ArticulatedBody {
 
     /// Whether a joint or a place moves as told.
     pub(crate) fn moves_as_told(&self) -> bool {
-        let carried = match &self.base {
+        self.is_carried() || self.motions.iter().any(Motion::is_driven)
+    }
+
+    /// Whether the first body hangs on a place that moves.
+    pub(crate) fn is_carried(&self) -> bool {
+        match &self.base {
             Base::Free => false,
             Base::Held { place, .. } => !place.is_constant(),
-        };
-        carried || self.motions.iter().any(Motion::is_driven)
+        }
     }
 
     /// The total inertia of each body.

@@ -3,7 +3,7 @@
 use lie::{LieGroup, VectorSpace};
 
 use crate::{
-    Adjoint, DiscreteLagrangian, FirstVariation, Integrator, State, StepError, StepReport,
+    Adjoint, DiscreteLagrangian, FirstVariation, Integrator, Path, State, StepError, StepReport,
     Variation, Variational,
 };
 
@@ -205,6 +205,22 @@ enum Half<'a, L: DiscreteLagrangian> {
     Adjoint(&'a mut Variational<Adjoint<L>>),
 }
 
+impl<L: DiscreteLagrangian> Half<'_, L> {
+    fn step(self, state: &mut State<L::Group>, h: f64) -> Result<StepReport, StepError> {
+        match self {
+            Self::Method(method) => method.step(state, h),
+            Self::Adjoint(adjoint) => adjoint.step(state, h),
+        }
+    }
+
+    fn peek(self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
+        match self {
+            Self::Method(method) => method.peek(state, h),
+            Self::Adjoint(adjoint) => adjoint.peek(state, h),
+        }
+    }
+}
+
 impl<L: DiscreteLagrangian> Integrator for Composition<L> {
     type Group = L::Group;
 
@@ -221,20 +237,39 @@ impl<L: DiscreteLagrangian> Integrator for Composition<L> {
     }
 
     fn step(&mut self, state: &mut State<L::Group>, h: f64) -> Result<StepReport, StepError> {
-        self.each_part(state, h, |half, state, h| match half {
-            Half::Method(method) => method.step(state, h),
-            Half::Adjoint(adjoint) => adjoint.step(state, h),
+        self.each_part(state, h, |half, state, h| half.step(state, h))
+    }
+
+    fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
+        self.peek_along(state, h, &mut |_| ())
+    }
+
+    fn step_along(
+        &mut self,
+        state: &mut State<L::Group>,
+        h: f64,
+        see: &mut dyn FnMut(Path<L::Group>),
+    ) -> Result<StepReport, StepError> {
+        self.each_part(state, h, |half, state, h| {
+            let start = state.clone();
+            let report = half.step(state, h)?;
+            see(Path::between(&[start, state.clone()], h));
+            Ok(report)
         })
     }
 
     /// By looking ahead with each part: none of them counts a step.
-    fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
+    fn peek_along(
+        &mut self,
+        state: &State<L::Group>,
+        h: f64,
+        see: &mut dyn FnMut(Path<L::Group>),
+    ) -> Result<State<L::Group>, StepError> {
         let (mut ahead, steps) = (state.clone(), self.steps);
         let peeked = self.each_part(&mut ahead, h, |half, state, h| {
-            *state = match half {
-                Half::Method(method) => method.peek(state, h)?,
-                Half::Adjoint(adjoint) => adjoint.peek(state, h)?,
-            };
+            let ends = [state.clone(), half.peek(state, h)?];
+            see(Path::between(&ends, h));
+            [_, *state] = ends;
             Ok(StepReport::default())
         });
         self.steps = steps;

@@ -66,7 +66,7 @@ mod variational;
 pub use composition::Composition;
 pub use gauss::Gauss;
 pub use pilot::{Pilot, PilotError};
-pub use step::{Cause, Hint, Integrator, StepError, StepReport, check_momentum, check_step};
+pub use step::{Cause, Hint, Integrator, Path, StepError, StepReport, check_momentum, check_step};
 pub use system::{
     Adjoint, AdjointWorkspace, Context, ContinuousSystem, Derivatives, DiscreteForce,
     DiscreteLagrangian, Discretised, DiscretisedWorkspace, Force, Forced, ForcedWorkspace,

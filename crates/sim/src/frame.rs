@@ -17,10 +17,12 @@ pub struct Frame {
     pub bodies: Kinematics,
     /// The conserved quantities.
     pub sample: Sample,
+    /// The drives, in the order of the scene's bodies.
+    pub drives: Vec<DriveSample>,
 }
 
 impl Frame {
-    /// The frame of a state.
+    /// The frame of a state, before which no drive has done anything.
     ///
     /// # Errors
     /// [`ModelError::Shape`] where the state does not fit the model, [`ModelError::NotFinite`] where a quantity is not finite.
@@ -35,6 +37,7 @@ impl Frame {
             velocity,
             bodies,
             sample: Sample::new(model, &state, kept),
+            drives: vec![DriveSample::IDLE; model.drives().len()],
             state,
         })
     }
@@ -71,6 +74,26 @@ impl Frame {
     }
 }
 
+/// What the drive of a joint does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DriveSample {
+    /// Since the start, J.
+    pub work: f64,
+    /// The mean power since the frame before, W.
+    pub power: f64,
+    /// The mean torque on the body since the frame before, N m in the reference frame.
+    pub torque: Vec3,
+}
+
+impl DriveSample {
+    /// Of a drive that has done nothing.
+    const IDLE: Self = Self {
+        work: 0.0,
+        power: 0.0,
+        torque: Vec3([0.0; 3]),
+    };
+}
+
 /// What the motion keeps, at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -80,6 +103,8 @@ pub struct Sample {
     pub energy: f64,
     /// Its kinetic part, J.
     pub kinetic: f64,
+    /// What drives have done since the start, J.
+    pub work: f64,
     /// kg m/s.
     pub linear: Vec3,
     /// kg m²/s.
@@ -93,6 +118,11 @@ impl Sample {
     pub fn take(model: &ArticulatedBody, state: &State<Configuration>) -> Option<Self> {
         let kept = model.conserved(state).ok()?;
         Some(Self::new(model, state, kept))
+    }
+
+    /// The energy that no drive has done work for, J: what the motion keeps.
+    pub fn balance(&self) -> f64 {
+        self.energy - self.work
     }
 
     /// The sample of a state, or why there is none, with storage kept from call to call.
@@ -110,6 +140,7 @@ impl Sample {
             t: state.t,
             energy: kept.energy,
             kinetic: kept.kinetic,
+            work: 0.0,
             linear: kept.linear,
             angular: kept.angular,
             orthogonality: model.orthogonality_error(&state.g),

@@ -27,6 +27,7 @@
 //! | what is known of an accuracy | [`Checked`] |
 //! | when there are steps, and frames | [`Clock`], [`Schedule`] |
 //! | what is seen at one time | [`Frame`], [`Sample`] |
+//! | what drives do | [`DriveSample`], [`DriveReport`] |
 //! | how far a run strays from what the motion keeps | [`Watch`] |
 //! | what a run comes to | [`Report`] |
 //! | a trajectory as CSV | [`Table`], [`COLUMNS`](table::COLUMNS) |
@@ -38,6 +39,7 @@ mod choice;
 mod clock;
 mod companion;
 mod distance;
+mod drives;
 mod error;
 mod estimate;
 pub mod file;
@@ -56,11 +58,12 @@ pub use accuracy::Checked;
 pub use choice::{Choice, Chosen};
 pub use clock::Clock;
 pub use distance::distance;
+pub use drives::DriveReport;
 pub use error::{LARGEST_ACCURACY, MAX_STEPS, SimError};
-pub use frame::{Frame, Sample};
+pub use frame::{DriveSample, Frame, Sample};
 pub use method::{BoxedIntegrator, Method, UnknownMethod};
 pub use report::Report;
-pub use run::{Cost, Run};
+pub use run::{Cost, Run, See};
 pub use schedule::{Due, Schedule};
 pub use simulation::{CHUNK, Plan, Simulation};
 pub use table::Table;

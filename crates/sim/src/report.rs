@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::choice::Choice;
+use crate::drives::DriveReport;
 use crate::estimate::Estimator;
 use crate::method::Evaluation;
 use crate::schedule::Schedule;
@@ -58,11 +59,13 @@ pub struct Report {
     pub samples: u64,
     /// Whether the motion keeps the energy: joints that move as told do work.
     pub energy_is_kept: bool,
+    /// What they do.
+    pub drives: Vec<DriveReport>,
     /// Whether it keeps the momenta: a body on the world does not.
     pub momentum_is_kept: bool,
     /// At t = 0.
     pub energy_initial_joules: f64,
-    /// The largest error of the energy, over all steps, as of what follows.
+    /// The largest error of the energy, or of its balance with the work of drives, over all steps, as of what follows.
     pub energy_error_max_joules: f64,
     /// The largest kinetic energy.
     pub energy_kinetic_max_joules: f64,
@@ -135,6 +138,7 @@ impl Simulation {
             sample_every_seconds: every_seconds,
             samples: self.frames,
             energy_is_kept: self.model.keeps_energy(),
+            drives: self.drives.report(&self.driven),
             momentum_is_kept: self.model.keeps_momentum(),
             energy_initial_joules: watch.initial_energy(),
             energy_error_max_joules: watch.energy(),

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use dvi::{Integrator, State, StepError, StepReport};
+use dvi::{Integrator, Path, State, StepError, StepReport};
 
 use crate::clock::Clock;
 use crate::schedule::Due;
@@ -44,10 +44,13 @@ pub struct Run<I: Integrator> {
     cost: Cost,
 }
 
+/// What looks on at the parts of a step.
+pub type See<'a, G> = &'a mut dyn FnMut(Path<G>);
+
 /// What the steps of a run have cost, and how well they were solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {
-    /// Of stepping alone, by [`Run::advance`].
+    /// Of stepping alone, by [`Run::advance`]; of [`Run::advance_along`] with what looks on.
     pub time: Duration,
     /// Steps taken.
     pub steps: u64,
@@ -104,9 +107,13 @@ impl<I: Integrator> Run<I> {
     /// [`StepError`], and the run is as it was.
     pub fn step(&mut self) -> Result<(), StepError> {
         let report = self.integrator.step(&mut self.state, self.clock.step())?;
+        self.count(report);
+        Ok(())
+    }
+
+    fn count(&mut self, report: StepReport) {
         self.cost.add(report);
         self.state.t = self.origin + self.clock.time(self.cost.steps);
-        Ok(())
     }
 
     /// Takes the steps up to number `stop`, and times them.
@@ -120,14 +127,39 @@ impl<I: Integrator> Run<I> {
         solved
     }
 
+    /// Takes the next step likewise, and shows what it goes through.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step); then what was seen is not of the motion.
+    pub fn advance_along(&mut self, see: See<I::Group>) -> Result<(), StepError> {
+        let begin = Instant::now();
+        let (state, h) = (&mut self.state, self.clock.step());
+        let solved = self.integrator.step_along(state, h, see);
+        let taken = solved.map(|report| self.count(report));
+        self.cost.time += begin.elapsed();
+        taken
+    }
+
     /// The state that is due, at the run's place or inside the next step: there it is a shorter step, and the run stays where it is.
     ///
     /// # Errors
     /// As [`Integrator::peek`].
     pub fn look(&mut self, due: &Due) -> Result<State<I::Group>, StepError> {
+        self.look_along(due, &mut |_| ())
+    }
+
+    /// The same, with what lies between the run's place and that.
+    ///
+    /// # Errors
+    /// As [`look`](Self::look).
+    pub fn look_along(
+        &mut self,
+        due: &Due,
+        see: See<I::Group>,
+    ) -> Result<State<I::Group>, StepError> {
         let mut state = match due.ahead {
             0.0 => self.state.clone(),
-            ahead => self.integrator.peek(&self.state, ahead)?,
+            ahead => self.integrator.peek_along(&self.state, ahead, see)?,
         };
         state.t = self.origin + due.t;
         Ok(state)

@@ -6,6 +6,7 @@ use lie::LieGroup;
 
 use crate::choice::{Choice, Chosen, Stage};
 use crate::clock::Clock;
+use crate::drives::Drives;
 use crate::error::SimError;
 use crate::estimate::Estimator;
 use crate::frame::{Frame, Sample};
@@ -117,6 +118,9 @@ pub struct Simulation {
     pub(crate) model: ArticulatedBody,
     pub(crate) run: Run<BoxedIntegrator<Configuration>>,
     pub(crate) watch: Watch,
+    pub(crate) drives: Drives,
+    /// The names of their joints.
+    pub(crate) driven: Vec<String>,
     /// What watching needs to evaluate the model.
     watching: (Evaluation, <Configuration as LieGroup>::Algebra),
     pub(crate) estimator: Option<Estimator>,
@@ -159,6 +163,8 @@ impl Simulation {
             chosen,
             watch: Watch::new(&model, first.sample),
             watching: (Evaluation::default(), first.velocity.clone()),
+            drives: Drives::new(&model),
+            driven: scene.driven_joints().map(str::to_owned).collect(),
             estimator,
             frames: 0,
             model,
@@ -227,12 +233,13 @@ impl Simulation {
 
     /// Takes a step, and watches what it keeps.
     fn step(&mut self) -> Result<(), SimError> {
-        let solved = self.run.advance(self.steps() + 1);
+        let solved = self.drives.step(&self.model, &mut self.run);
         solved.map_err(|error| self.refused(error))?;
         let state = self.run.state();
         let (work, xi) = &mut self.watching;
         let kept = Sample::of(&self.model, state, (work, xi));
-        let sample = kept.map_err(|error| SimError::unmeasured(state.t, error))?;
+        let mut sample = kept.map_err(|error| SimError::unmeasured(state.t, error))?;
+        sample.work = self.drives.work();
         self.watch.add(&sample);
         if let Some(estimator) = &mut self.estimator {
             estimator.look(self.run.cost().steps, state);
@@ -241,8 +248,13 @@ impl Simulation {
     }
 
     fn frame(&mut self, due: &Due) -> Result<Frame, SimError> {
-        let state = self.run.look(due).map_err(|error| self.refused(error))?;
-        Frame::new(&self.model, state).map_err(|error| SimError::unmeasured(due.t, error))
+        let seen = self.drives.look(&self.model, &mut self.run, due);
+        let (state, drives) = seen.map_err(|error| self.refused(error))?;
+        let frame = Frame::new(&self.model, state);
+        let mut frame = frame.map_err(|error| SimError::unmeasured(due.t, error))?;
+        frame.sample.work = drives.iter().map(|drive| drive.work).sum();
+        frame.drives = drives;
+        Ok(frame)
     }
 
     fn refused(&self, source: StepError) -> SimError {

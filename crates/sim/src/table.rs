@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use articulated_fluid::Scene;
 use lie::{SO3, Vec3};
 
-use crate::frame::Frame;
+use crate::frame::{DriveSample, Frame};
 
 /// Columns that belong together.
 ///
@@ -36,12 +36,15 @@ enum Read {
     Body(fn(&Seen, usize, &mut [f64])),
     /// Of the free hinge with this number, likewise.
     Hinge(fn(&Seen, usize, &mut [f64])),
+    /// Of the drive with this number, likewise.
+    Drive(fn(&DriveSample, &mut [f64])),
 }
 
-/// The bodies and the free hinges of a scene, by their names.
+/// The bodies of a scene, the free hinges and the joints with drives, by their names.
 struct Names {
     bodies: Vec<String>,
     hinges: Vec<String>,
+    drives: Vec<String>,
 }
 
 type Labels = &'static [&'static str];
@@ -65,6 +68,10 @@ const fn body(names: Labels, meaning: &'static str, read: fn(&Seen, usize, &mut 
 
 const fn hinge(names: Labels, meaning: &'static str, read: fn(&Seen, usize, &mut [f64])) -> Column {
     column(names, meaning, Read::Hinge(read))
+}
+
+const fn drive(names: Labels, meaning: &'static str, read: fn(&DriveSample, &mut [f64])) -> Column {
+    column(names, meaning, Read::Drive(read))
 }
 
 const fn extra(column: Column) -> Column {
@@ -97,6 +104,11 @@ pub const COLUMNS: &[Column] = &[
     hinge(&["angle", "rate"], "angle of a free hinge, not wrapped, rad, and its rate, rad/s", |seen, k, to| {
         to.copy_from_slice(&seen.frame.hinge(k).unwrap_or([f64::NAN; 2]));
     }),
+    drive(&["work"], "work of what moves a joint as told, since the start, J", |drive, to| to.fill(drive.work)),
+    extra(drive(&["power"], "its mean power since the row before, W", |drive, to| to.fill(drive.power))),
+    extra(drive(&["tx", "ty", "tz"], "its mean torque on the child since the row before, in the reference frame, N m", |drive, to| {
+        to.copy_from_slice(&drive.torque.0);
+    })),
     whole(&["energy"], "of bodies and fluid, kinetic and potential, J", |seen, to| to.fill(seen.frame.sample.energy)),
     whole(&["px", "py", "pz"], "linear momentum from the velocities, in the reference frame, kg m/s", |seen, to| {
         to.copy_from_slice(&seen.frame.sample.linear.0);
@@ -125,7 +137,7 @@ impl Column {
         match self.read {
             Read::Whole(_) => self.names.join(","),
             Read::Body(_) => format!("NAME.{}", self.names.join(",.")),
-            Read::Hinge(_) => format!("JOINT.{}", self.names.join(",.")),
+            Read::Hinge(_) | Read::Drive(_) => format!("JOINT.{}", self.names.join(",.")),
         }
     }
 }
@@ -135,6 +147,7 @@ impl Names {
         Self {
             bodies: scene.bodies.iter().map(|body| body.name.clone()).collect(),
             hinges: scene.free_hinges().map(str::to_owned).collect(),
+            drives: scene.driven_joints().map(str::to_owned).collect(),
         }
     }
 
@@ -144,6 +157,7 @@ impl Names {
             Read::Whole(_) => &[],
             Read::Body(_) => &self.bodies,
             Read::Hinge(_) => &self.hinges,
+            Read::Drive(_) => &self.drives,
         }
     }
 }
@@ -231,6 +245,10 @@ impl<W: Write> Table<W> {
             match column.read {
                 Read::Whole(read) => read(&seen, to),
                 Read::Body(read) | Read::Hinge(read) => read(&seen, i, to),
+                Read::Drive(read) => match frame.drives.get(i) {
+                    Some(drive) => read(drive, to),
+                    None => to.fill(f64::NAN),
+                },
             }
             rest = after;
         }

@@ -86,7 +86,7 @@ impl Watch {
 
     /// Takes another sample into account.
     pub fn add(&mut self, sample: &Sample) {
-        let change = sample.energy - self.start.energy;
+        let change = sample.balance() - self.start.balance();
         self.count += 1;
         self.energy = self.energy.max(change.abs());
         self.kinetic = self.kinetic.max(sample.kinetic);
@@ -114,7 +114,7 @@ impl Watch {
         self.start.energy
     }
 
-    /// The largest error of the energy, J.
+    /// The largest error of the energy, J: of its balance with the work of drives.
     pub fn energy(&self) -> f64 {
         self.energy
     }

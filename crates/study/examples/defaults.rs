@@ -16,7 +16,8 @@ const SEED: u64 = 22;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let count = std::env::args().nth(1).map_or(Ok(20), |n| n.parse())?;
     let mut scenes = Vec::new();
-    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes"))? {
+    let folder = |name| std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(name));
+    for entry in folder("../../scenes")?.chain(folder("../../scenes/swim")?) {
         let path = entry?.path();
         if path
             .extension()

@@ -35,6 +35,14 @@ impl ArticulatedBody {
         }
     }
 
+    /// Whether the joint of body `i` turns it as told.
+    pub(crate) fn is_turned(&self, i: usize) -> bool {
+        match self.nodes[i].role {
+            Role::Prescribed(k) => self.motions[k].is_driven(),
+            _ => false,
+        }
+    }
+
     /// $C_i$ and $a_i$ of a joint that moves as told, into the pose.
     pub(crate) fn read_motion<S: Scalar>(&self, t: S, i: usize, pose: &mut Pose<S>) {
         if let Role::Prescribed(k) = self.nodes[i].role {

@@ -44,6 +44,11 @@ impl JointKind {
         })
     }
 
+    /// Whether it moves as told.
+    pub fn is_driven(&self) -> bool {
+        matches!(self, Self::Prescribed(motion) if motion.is_driven())
+    }
+
     /// A weld, with the attitude of the child on the parent.
     pub fn fixed(rest: SO3) -> Self {
         Self::Prescribed(Motion::Fixed(rest))

@@ -5,7 +5,7 @@ use lie::Mat3;
 use super::mobility::Mobility;
 use super::note::Note;
 use crate::ellipsoid::Ellipsoid;
-use crate::motion::Sinusoid;
+use crate::motion::{Law, Sinusoid};
 
 /// A difference of mass and displaced mass that is the rounding of density times volume and of the numbers read, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -195,6 +195,15 @@ impl Scene {
     pub fn free_hinges(&self) -> impl Iterator<Item = &str> {
         let hinges = self.on_joints().filter(|(.., on)| on.is_hinge());
         hinges.map(|(_, name, _)| name)
+    }
+
+    /// The names of the joints that move as told, or whose place does, in the order of the [drives](crate::ArticulatedBody::drives).
+    pub fn driven_joints(&self) -> impl Iterator<Item = &str> {
+        let mount = self.mount.as_ref();
+        let carried = mount.is_some_and(|mount| !mount.place.is_constant());
+        let driven =
+            move |(i, _, on): &(usize, &str, &Mobility)| on.kind.is_driven() || *i == 0 && carried;
+        self.on_joints().filter(driven).map(|(_, name, _)| name)
     }
 
     /// The bodies on joints in their order, with the joint's name and what it leaves free.

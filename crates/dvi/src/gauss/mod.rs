@@ -16,7 +16,8 @@ use lie::{Cayley, Retraction, VectorSpace};
 
 use crate::step::{check_momentum, check_step, finite};
 use crate::{
-    Cause, ContinuousSystem, FirstVariation, Integrator, State, StepError, StepReport, Variation,
+    Cause, ContinuousSystem, FirstVariation, Integrator, Path, State, StepError, StepReport,
+    Variation,
 };
 use stepper::{MakeStepper, Stepper, stepper};
 use tableau::Tableau;
@@ -79,6 +80,8 @@ pub struct Gauss<C: ContinuousSystem> {
     /// Makes the work for the retraction that was chosen.
     make: MakeStepper<C>,
     work: Option<Box<dyn Stepper<C>>>,
+    /// Storage for what a step goes through.
+    along: Vec<State<C::Group>>,
 }
 
 impl<C: ContinuousSystem + 'static> Gauss<C> {
@@ -108,6 +111,7 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
             steps: 0,
             make: stepper::<C, Cayley>,
             work: None,
+            along: Vec::new(),
         }
     }
 
@@ -188,6 +192,29 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
         Ok(StepReport::default())
     }
 
+    /// Shows the step that was solved last: its start, its stages, its end.
+    fn show(
+        &mut self,
+        (start, h): (&State<C::Group>, f64),
+        end: &State<C::Group>,
+        see: &mut dyn FnMut(Path<C::Group>),
+    ) {
+        let nodes = &self.tableau.nodes;
+        self.along.clear();
+        self.along.resize(nodes.len() + 2, start.clone());
+        for (i, (node, stage)) in nodes.iter().zip(&mut self.along[1..]).enumerate() {
+            stage.t = start.t + node * h;
+            // A system without unknowns has no stages to solve.
+            if let Some(work) = &self.work
+                && start.mu.dim() > 0
+            {
+                work.stage(i, stage);
+            }
+        }
+        self.along[nodes.len() + 1].copy_from(end);
+        see(Path::new(&self.tableau.rule, &self.along, h));
+    }
+
     /// Takes the step that was solved.
     fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Result<(), StepError> {
         let (system, work) = (&self.system, self.work.as_mut());
@@ -233,6 +260,29 @@ impl<C: ContinuousSystem + 'static> Integrator for Gauss<C> {
         let defined = ahead.filter(|ahead| self.system.is_defined(ahead.t, &ahead.g));
         let ahead = defined.ok_or(Cause::NotFinite).and_then(finite);
         ahead.map_err(|cause| self.error(state, h, cause))
+    }
+
+    fn step_along(
+        &mut self,
+        state: &mut State<C::Group>,
+        h: f64,
+        see: &mut dyn FnMut(Path<C::Group>),
+    ) -> Result<StepReport, StepError> {
+        let start = state.clone();
+        let report = self.step(state, h)?;
+        self.show((&start, h), state, see);
+        Ok(report)
+    }
+
+    fn peek_along(
+        &mut self,
+        state: &State<C::Group>,
+        h: f64,
+        see: &mut dyn FnMut(Path<C::Group>),
+    ) -> Result<State<C::Group>, StepError> {
+        let ahead = self.peek(state, h)?;
+        self.show((state, h), &ahead, see);
+        Ok(ahead)
     }
 
     fn reset(&mut self) {

@@ -31,6 +31,9 @@ pub(super) trait Stepper<C: ContinuousSystem>: Send + Sync {
     /// The state after the step that was solved.
     fn ahead(&self, start: Start<C>) -> State<C::Group>;
 
+    /// Configuration and momentum at stage `i` of the step that was solved.
+    fn stage(&self, i: usize, out: &mut State<C::Group>);
+
     /// Carries variations over the step that was solved.
     fn carry(&mut self, method: Method<C>, start: Start<C>, variations: &mut [Variation<C::Group>]);
 
@@ -69,6 +72,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
         ahead.g = state.g.compose(f);
         ahead.mu.copy_from(mu);
         ahead
+    }
+
+    fn stage(&self, i: usize, out: &mut State<C::Group>) {
+        self.work.sweep.read_stage(i, out);
     }
 
     fn carry(

@@ -10,7 +10,7 @@ use super::tableau::Tableau;
 use crate::numerics::duals::lift;
 use crate::numerics::numbers::larger;
 use crate::numerics::sizes::{Kinds, NOISE, Weights, relative_beside, shaken};
-use crate::{Context, ContinuousSystem};
+use crate::{Context, ContinuousSystem, State};
 
 /// Sweeps for which it holds what is rounding.
 const ROUNDING_HOLDS: u32 = 4;
@@ -445,6 +445,19 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
         block.pi_dot.write(rates);
         let momenta = self.pi.block(k);
         change.replace((&self.kinds, 1), self.pi_dot.block_mut(k), rates, momenta);
+    }
+
+    /// Configuration and momentum at stage `i`, where it was evaluated at last.
+    pub(super) fn read_stage(&self, i: usize, out: &mut State<C::Group>)
+    where
+        S: Batch<Item = f64>,
+    {
+        let (block, lane) = (&self.blocks[i / S::ITEMS], i % S::ITEMS);
+        let item = |x: S| S::items(&[x])[lane];
+        C::Group::convert_into::<S, f64>(&block.g, item, &mut out.g);
+        for d in 0..out.mu.dim() {
+            out.mu.set(d, item(block.mu.get(d)));
+        }
     }
 
     /// $P$ from the forces.

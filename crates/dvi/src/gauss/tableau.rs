@@ -4,6 +4,8 @@ use std::sync::OnceLock;
 
 use qd::Quad;
 
+use crate::step::Rule;
+
 /// The Gauss–Legendre collocation method with `S` stages, of order `2 S`.
 ///
 /// From the shifted Legendre polynomials $P_k$ on $[0, 1]$: $c_i$ are the zeros of $P_s$,
@@ -20,6 +22,8 @@ pub(super) struct Tableau {
     pub(super) forward: Vec<Vec<Split>>,
     /// $b_j - a_{ij}$, which for Gauss is $b_j a_{ji} / b_i$: the adjoint coefficients of the momenta.
     pub(super) backward: Vec<Vec<Split>>,
+    /// Sums over the ends and the stages of a step.
+    pub(super) rule: Rule,
 }
 
 /// A coefficient with the part that a float of it leaves out.
@@ -66,10 +70,12 @@ impl Tableau {
             let row = |i| (0..stages).map(|j| entry(i, j).into()).collect();
             (0..stages).map(row).collect()
         };
+        let places: Vec<f64> = nodes.iter().map(|c| c.0).collect();
         Self {
             forward: matrix(&entry),
             backward: matrix(&|i, j| weights[j] - entry(i, j)),
-            nodes: nodes.iter().map(|c| c.0).collect(),
+            rule: Rule::inside(&places, weights.iter().map(|b| b.0)),
+            nodes: places,
             weights: weights.iter().copied().map(Split::from).collect(),
         }
     }

@@ -2,6 +2,7 @@
 
 mod check;
 mod error;
+mod path;
 
 use lie::RealGroup;
 
@@ -9,6 +10,8 @@ use crate::State;
 pub(crate) use check::finite;
 pub use check::{check_momentum, check_step};
 pub use error::{Cause, Hint, StepError};
+pub use path::Path;
+pub(crate) use path::Rule;
 
 /// Advances a [`State`] in time.
 ///
@@ -47,6 +50,38 @@ pub trait Integrator {
     ) -> Result<State<Self::Group>, StepError> {
         let mut ahead = state.clone();
         self.step(&mut ahead, h)?;
+        Ok(ahead)
+    }
+
+    /// The [step](Self::step), and what it goes through, from part to part.
+    ///
+    /// # Errors
+    /// As `step`; then what has been seen is not of the motion.
+    fn step_along(
+        &mut self,
+        state: &mut State<Self::Group>,
+        h: f64,
+        see: &mut dyn FnMut(Path<Self::Group>),
+    ) -> Result<StepReport, StepError> {
+        let start = state.clone();
+        let report = self.step(state, h)?;
+        see(Path::between(&[start, state.clone()], h));
+        Ok(report)
+    }
+
+    /// The [look ahead](Self::peek), and what it goes through.
+    ///
+    /// # Errors
+    /// As [`step_along`](Self::step_along).
+    fn peek_along(
+        &mut self,
+        state: &State<Self::Group>,
+        h: f64,
+        see: &mut dyn FnMut(Path<Self::Group>),
+    ) -> Result<State<Self::Group>, StepError> {
+        let ends = [state.clone(), self.peek(state, h)?];
+        see(Path::between(&ends, h));
+        let [_, ahead] = ends;
         Ok(ahead)
     }
 
@@ -100,6 +135,24 @@ macro_rules! forward {
                 h: f64,
             ) -> Result<State<I::Group>, StepError> {
                 (**self).peek(state, h)
+            }
+
+            fn step_along(
+                &mut self,
+                state: &mut State<I::Group>,
+                h: f64,
+                see: &mut dyn FnMut(Path<I::Group>),
+            ) -> Result<StepReport, StepError> {
+                (**self).step_along(state, h, see)
+            }
+
+            fn peek_along(
+                &mut self,
+                state: &State<I::Group>,
+                h: f64,
+                see: &mut dyn FnMut(Path<I::Group>),
+            ) -> Result<State<I::Group>, StepError> {
+                (**self).peek_along(state, h, see)
             }
 
             fn reset(&mut self) {

@@ -1,0 +1,115 @@
+//! What drives do: torque and work of joints and places that move as told, (S16)–(S17).
+
+use dvi::{Context, ContinuousSystem, Path, State};
+use lie::{LieGroup, Vec3};
+
+use crate::lagrangian::Evaluation;
+use crate::tree::{ArticulatedBody, Configuration};
+
+/// What the drive of a joint, or of the place of the first one, has done along a motion.
+///
+/// A drive that turns a body at the rate $a$ against its parent, about its joint, with the torque $\lambda$ does the work $\int \lambda \cdot a\,dt$. In the
+/// reference frame $\lambda = \dot N - T$ with the angular momentum $N$ about the joint of all that moves with the body, and the torque $T$ on that which the
+/// model has without a drive. A place moves the linear momentum likewise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// The body whose joint it moves.
+    pub body: usize,
+    /// $\int \lambda \cdot a\,dt$, with that of a place, J.
+    pub work: f64,
+    /// $\int \lambda\,dt$, N m s in the reference frame: over a time, it is the mean torque on the body.
+    pub impulse: Vec3,
+}
+
+/// What a drive moves the tree by, at a time, in the reference frame.
+#[derive(Clone, Copy)]
+struct Port {
+    /// $a$, or the velocity of a place.
+    rate: Vec3,
+    /// $N$, or the linear momentum.
+    momentum: Vec3,
+    /// $T$, or the force on the whole.
+    load: Vec3,
+}
+
+impl Port {
+    fn unused() -> Self {
+        let [rate, momentum, load] = [Vec3::zero(); 3];
+        Self {
+            rate,
+            momentum,
+            load,
+        }
+    }
+}
+
+/// By a turn, and by a place.
+type Ports = [Port; 2];
+
+impl ArticulatedBody {
+    /// The drives of all joints that move as told, which have done nothing, in the order of the bodies.
+    pub fn drives(&self) -> Vec<Drive> {
+        let driven = |i: &usize| self.is_turned(*i) || *i == 0 && self.is_carried();
+        let bodies = (0..self.nodes.len()).filter(driven);
+        let idle = |body| Drive {
+            body,
+            work: 0.0,
+            impulse: Vec3::zero(),
+        };
+        bodies.map(idle).collect()
+    }
+
+    /// Adds what the [drives](Self::drives) do along a path of this tree's states.
+    ///
+    /// The momenta are those of the polynomial through the states, so that the account is of the order of the path's method.
+    pub fn add_drives(&self, path: Path<Configuration>, work: &mut Evaluation, to: &mut [Drive]) {
+        let states = path.states().iter();
+        let ports: Vec<Vec<Ports>> = states.map(|state| self.ports(state, to, work)).collect();
+        let last = ports.len() - 1;
+        for (k, drive) in to.iter_mut().enumerate() {
+            let work = |way: usize| {
+                let at = |i: usize| &ports[i][k][way];
+                let gained = path.line_integral(|i, j| at(i).rate.dot(at(j).momentum));
+                gained - path.integral(|i| at(i).rate.dot(at(i).load))
+            };
+            drive.work += work(0) + work(1);
+            let at = |i: usize| &ports[i][k][0];
+            let load = |d: usize| path.integral(|i| at(i).load.0[d]);
+            drive.impulse += at(last).momentum - at(0).momentum - Vec3([0, 1, 2].map(load));
+        }
+    }
+
+    fn ports(
+        &self,
+        State { t, g, mu }: &State<Configuration>,
+        drives: &[Drive],
+        work: &mut Evaluation,
+    ) -> Vec<Ports> {
+        let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
+        self.velocity_and_force(Context::new(*t, &[]), g, mu, work, &mut xi, &mut tau);
+        let Evaluation { pose, torques, .. } = work;
+        let (r, pose) = self.pose(*t, g, pose);
+        let (momenta, linear) = self.body_momenta((r, pose), &xi);
+        let momenta = self.outer_momenta(pose, momenta);
+        let port = |Drive { body: i, .. }: &Drive| {
+            let turn = match self.is_turned(*i) {
+                false => Port::unused(),
+                true => Port {
+                    rate: r[*i].rotate(pose.rates[*i]),
+                    momentum: r[*i].rotate(momenta[*i]),
+                    load: r[*i].rotate(torques[*i].vec3()),
+                },
+            };
+            let place = match *i == 0 && self.is_carried() {
+                false => Port::unused(),
+                true => Port {
+                    rate: pose.place[1],
+                    momentum: linear,
+                    load: self.loads.force().unwrap_or(Vec3::zero()),
+                },
+            };
+            [turn, place]
+        };
+        drives.iter().map(port).collect()
+    }
+}
