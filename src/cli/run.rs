@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use articulated_fluid::scene;
 use sim::file::{AtomicFile, CompleteFile, FileError};
@@ -167,6 +168,7 @@ where rounding leaves no step, the run is refused. All of it takes at least twic
 Without --method, --step and --accuracy the paper's scene is run by lgvi in steps of 0.001 s, and any other at an accuracy of 1e-6;
 `--method lgvi --step 0.001` takes the paper's for any scene. A method's default step is the one of `lgvi methods`, doubled or
 halved as a rough run finds the scene slower or faster than the paper's, and halved where the first steps are not solved.
+Where one is not solved later, the run goes on from there in steps of half the size, and the summary says so.
 The errors of energy, momenta and rotations are over all steps, whatever is sampled. A small one tells little of the trajectory:
 --estimate does, by two more runs.
 
@@ -218,22 +220,26 @@ fn simulate(
     mut rows: Option<Rows>,
     interrupt: &Interrupt,
 ) -> Result<Simulation, CliError> {
-    let clock = *simulation.clock();
-    let bar = progress::bar(clock.steps(), "{bar:40} {percent:>3}%, {eta} left");
+    let steps = simulation.clock().steps();
+    let bar = progress::bar(steps, "{bar:40} {percent:>3}%, {eta} left");
     let (mut simulation, shown) = (simulation, bar.clone());
+    let reached = Arc::new(Mutex::new(0.0));
+    let reach = reached.clone();
     let done = interrupt.heeding(move || {
         while !simulation.is_done() {
             let frame = simulation.advance()?;
             if let (Some(rows), Some(frame)) = (&mut rows, frame) {
                 rows.write(&frame)?;
             }
+            shown.set_length(simulation.clock().steps());
             shown.set_position(simulation.steps());
+            *reach.lock().unwrap_or_else(PoisonError::into_inner) = simulation.state().t;
         }
         rows.map_or(Ok(()), Rows::end)?;
         Ok(simulation)
     });
-    let t = clock.time(bar.position());
     bar.finish_and_clear();
+    let t = *reached.lock().unwrap_or_else(PoisonError::into_inner);
     done.unwrap_or_else(|signal| Err(CliError::Interrupted { t, signal }))
 }
 

@@ -280,7 +280,16 @@ impl<'a> Summary<'a> {
     }
 
     fn step(&self) -> String {
-        let step = decimal(self.report.step_seconds);
+        let report = &self.report;
+        let since = report.step_shortened_at_seconds;
+        if let Some((at, from)) = since.zip(report.step_shortened_from_seconds) {
+            let (from, at) = (decimal(from), decimal(at));
+            let to = decimal(report.step_seconds);
+            return format!(
+                "{from} s, the method's default; not solved at t = {at} s, from there on {to} s"
+            );
+        }
+        let step = decimal(report.step_seconds);
         let asked = decimal(self.report.step_asked_seconds);
         let until = decimal(self.report.until_seconds);
         let default = match self.report.step_asked_seconds / self.step_of_method {

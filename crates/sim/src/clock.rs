@@ -5,9 +5,11 @@ use crate::error::{MAX_STEPS, SimError, positive};
 /// What rounding does to the quotient of two durations, relative, with room to spare.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A run of equal steps from time zero.
+/// A run of equal steps from time zero; from some step on they may be halved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
+    /// Steps before the equal ones, and the time there, s.
+    before: (u64, f64),
     until: f64,
     steps: u64,
     step: f64,
@@ -30,6 +32,7 @@ impl Clock {
             return Err(SimError::TooManySteps { until, step, count });
         }
         Ok(Self {
+            before: (0, 0.0),
             until,
             steps: count as u64,
             step: until / count,
@@ -40,6 +43,7 @@ impl Clock {
     /// So many steps of `step` seconds each.
     pub fn counted(steps: u64, step: f64) -> Self {
         Self {
+            before: (0, 0.0),
             until: steps as f64 * step,
             steps,
             step,
@@ -51,10 +55,21 @@ impl Clock {
     pub(crate) fn divided(until: f64, steps: u64) -> Self {
         let step = until / steps as f64;
         Self {
+            before: (0, 0.0),
             until,
             steps,
             step,
             asked: step,
+        }
+    }
+
+    /// The same with steps of half the size from step number `done` on.
+    pub(crate) fn halved_from(self, done: u64) -> Self {
+        Self {
+            before: (done, self.time(done)),
+            steps: done + 2 * self.steps.saturating_sub(done),
+            step: 0.5 * self.step,
+            ..self
         }
     }
 
@@ -83,23 +98,27 @@ impl Clock {
         (self.step - self.asked).abs() > 2.0 * ROUNDING * self.asked
     }
 
-    /// The time after `done` steps, s.
+    /// The time after `done` steps, s, of those that are equal.
     pub fn time(&self, done: u64) -> f64 {
         if done == self.steps {
             return self.until;
         }
-        let (done, steps) = (done as f64, self.steps as f64);
-        let product = done * self.until;
+        let (before, since) = self.before;
+        let done = done.saturating_sub(before) as f64;
+        let (steps, rest) = ((self.steps - before) as f64, self.until - since);
+        let product = done * rest;
         if product.is_finite() {
-            product / steps
+            since + product / steps
         } else {
-            done / steps * self.until
+            since + done / steps * rest
         }
     }
 
     /// The number of steps that end at `t` or before, and the seconds from there to `t`: none where only rounding is between.
     pub fn locate(&self, t: f64) -> (u64, f64) {
-        let nearest = ((t / self.step).round() as u64).min(self.steps);
+        let (before, since) = self.before;
+        let nearest = before + ((t - since) / self.step).round() as u64;
+        let nearest = nearest.min(self.steps);
         let ahead = t - self.time(nearest);
         if ahead.abs() <= ROUNDING * t {
             return (nearest, 0.0);
@@ -168,6 +187,18 @@ mod tests {
         assert_eq!(clock.locate(0.5), (2, 0.0));
         assert_eq!(clock.locate(0.6875), (2, 0.1875));
         assert!(clock.is_end(10.0) && clock.is_end(100.0 * 0.1) && !clock.is_end(9.99));
+    }
+
+    #[test]
+    fn halved_steps_meet_the_end() {
+        let clock = Clock::new(1.0, 0.25).unwrap().halved_from(1);
+        assert_eq!((clock.steps(), clock.step()), (7, 0.125));
+        let times: Vec<f64> = (1..=7).map(|k| clock.time(k)).collect();
+        assert_eq!(times, [0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0]);
+        assert_eq!(clock.locate(0.625), (4, 0.0));
+        assert_eq!(clock.locate(0.6875), (4, 0.0625));
+        let twice = clock.halved_from(3);
+        assert_eq!((twice.steps(), twice.time(4)), (11, 0.5625));
     }
 
     #[test]

@@ -42,6 +42,14 @@ impl Estimator {
         }
     }
 
+    /// Goes on without companions: nothing is known.
+    pub(crate) fn lost(self) -> Self {
+        Self {
+            companions: [None, None],
+            ..self
+        }
+    }
+
     /// Compares the run, `done` steps on its way. A companion that a step was refused of is left behind.
     pub(crate) fn look(&mut self, done: u64, state: &State<Configuration>) {
         if done < self.next {

@@ -31,8 +31,12 @@ pub struct Report {
     pub method_order: u32,
     /// Steps taken.
     pub steps: u64,
-    /// The step taken.
+    /// The step taken; the last one, where a default step was shortened on the way.
     pub step_seconds: f64,
+    /// When a default step was not solved, so that shorter ones were taken from there on.
+    pub step_shortened_at_seconds: Option<f64>,
+    /// The step until then.
+    pub step_shortened_from_seconds: Option<f64>,
     /// The longest step that was to be taken.
     pub step_asked_seconds: f64,
     /// The time to run to.
@@ -125,6 +129,8 @@ impl Simulation {
             method_order: method.order(),
             steps: cost.steps,
             step_seconds: clock.step(),
+            step_shortened_at_seconds: self.shortened.map(|shortened| shortened.at),
+            step_shortened_from_seconds: self.shortened.map(|shortened| shortened.from),
             step_asked_seconds: clock.asked(),
             until_seconds: clock.until(),
             accuracy_asked: accuracy,

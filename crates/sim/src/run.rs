@@ -96,6 +96,12 @@ impl<I: Integrator> Run<I> {
         &self.state
     }
 
+    /// Goes on in steps of half the size.
+    pub(crate) fn halve(&mut self) {
+        self.clock = self.clock.halved_from(self.cost.steps);
+        self.integrator.reset();
+    }
+
     /// What the steps have cost so far.
     pub fn cost(&self) -> &Cost {
         &self.cost

@@ -17,6 +17,8 @@ use crate::watch::Watch;
 
 /// The most steps that [`Simulation::advance`] takes at once.
 pub const CHUNK: u64 = 100;
+/// Halvings of a default step in mid-run, at most.
+const HALVINGS: u32 = 10;
 
 /// How a scene is to be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,6 +126,8 @@ pub struct Simulation {
     /// What watching needs to evaluate the model.
     watching: (Evaluation, <Configuration as LieGroup>::Algebra),
     pub(crate) estimator: Option<Estimator>,
+    /// Where longer steps were not solved at first.
+    pub(crate) shortened: Option<Shortened>,
     /// Frames given out.
     pub(crate) frames: u64,
     /// The frame at t = 0, until it is given out.
@@ -166,6 +170,7 @@ impl Simulation {
             drives: Drives::new(&model),
             driven: scene.driven_joints().map(str::to_owned).collect(),
             estimator,
+            shortened: None,
             frames: 0,
             model,
             run,
@@ -217,18 +222,53 @@ impl Simulation {
             return Ok(None);
         };
         let due = self.plan.schedule.due(self.clock(), number);
+        match self.go_to(&due) {
+            Ok(None) => self.next = Some(number),
+            Ok(Some(frame)) => {
+                self.frames += 1;
+                self.next = (due.steps < self.clock().steps()).then_some(number + 1);
+                return Ok(Some(frame));
+            }
+            // The same frame by shorter steps.
+            Err(SimError::Step { .. }) if self.may_shorten() => {
+                self.shorten();
+                self.next = Some(number);
+            }
+            Err(error) => return Err(error),
+        }
+        Ok(None)
+    }
+
+    /// A few steps towards a frame.
+    fn go_to(&mut self, due: &Due) -> Result<Option<Frame>, SimError> {
         let stop = due.steps.min(self.steps() + CHUNK);
         while self.steps() < stop {
             self.step()?;
         }
-        if stop < due.steps {
-            self.next = Some(number);
-            return Ok(None);
+        match stop < due.steps {
+            true => Ok(None),
+            false => self.frame(due).map(Some),
         }
-        let frame = self.frame(&due)?;
-        self.frames += 1;
-        self.next = (due.steps < self.clock().steps()).then_some(number + 1);
-        Ok(Some(frame))
+    }
+
+    /// A step that nobody asked for is not a reason to stop.
+    fn may_shorten(&self) -> bool {
+        let is_default = matches!(self.plan.choice, Choice::Method { step: None, .. });
+        let halvings = self.shortened.map_or(0, |shortened| shortened.halvings);
+        is_default && halvings < HALVINGS
+    }
+
+    fn shorten(&mut self) {
+        let (at, from) = (self.state().t, self.clock().step());
+        let first = Shortened {
+            at,
+            from,
+            halvings: 0,
+        };
+        self.shortened.get_or_insert(first).halvings += 1;
+        self.run.halve();
+        // Its companions are in step with the run no longer.
+        self.estimator = self.estimator.take().map(Estimator::lost);
     }
 
     /// Takes a step, and watches what it keeps.
@@ -264,6 +304,17 @@ impl Simulation {
             source,
         }
     }
+}
+
+/// Where a default step turned out to be too long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Shortened {
+    /// s.
+    pub(crate) at: f64,
+    /// The step until then, s.
+    pub(crate) from: f64,
+    /// Since then.
+    halvings: u32,
 }
 
 impl Iterator for Simulation {
