@@ -7,4 +7,5 @@ mod planar;
 mod strokes;
 mod trees;
 mod vectors;
+mod works;
 mod wrong;

@@ -45,9 +45,9 @@ fn the_momentum_of_a_driven_fish_is_kept_whatever_the_tolerance() {
             integrator = integrator.with_tolerance(tolerance);
         }
         let mut state = first.clone();
-        run(integrator, &mut state, (20_000, 0.005));
+        run(integrator, &mut state, (100_000, 0.005));
         let end = model.conserved(&state).expect("finite");
-        // Of a zero sum, beside single momenta of 100 kg m²/s: rounding of 2e4 steps.
+        // Of a zero sum, beside single momenta of 100 kg m²/s: rounding of 1e5 steps.
         assert!(
             end.angular.norm() < 1e-10,
             "{tolerance:?}: {:?}",

@@ -16,9 +16,9 @@ use proptest::prelude::*;
 type Told = (Vec<(usize, u8, [f64; 40])>, bool);
 
 #[derive(Clone, Debug)]
-struct Tree {
-    model: ArticulatedBody,
-    state: State<Configuration>,
+pub struct Tree {
+    pub model: ArticulatedBody,
+    pub state: State<Configuration>,
     f: Configuration,
     xi: AlgebraOver<Configuration, f64>,
 }
@@ -149,7 +149,7 @@ fn told() -> impl Strategy<Value = Told> {
     (prop::collection::vec(body, 1..7), any::<bool>())
 }
 
-fn trees() -> impl Strategy<Value = Tree> {
+pub fn trees() -> impl Strategy<Value = Tree> {
     (told(), any::<bool>()).prop_map(|(told, loaded)| tree(told, loaded))
 }
 

@@ -145,3 +145,61 @@ fn what_rounding_outgrows_is_refused_with_the_time_until_which_it_holds() {
         "{message}"
     );
 }
+
+/// States and works that three independent ways agree on to 1e-12: what is asked of a driven scene holds for the works too.
+#[test]
+fn driven_scenes_keep_an_accuracy_in_places_and_in_works() {
+    let folder = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../articulated-fluid/tests/swim"
+    );
+    let vectors = std::fs::read_to_string(format!("{folder}/vectors.json")).unwrap();
+    let vectors: serde_json::Value = serde_json::from_str(&vectors).unwrap();
+    let numbers = |value: &serde_json::Value| -> Vec<f64> {
+        let values = value.as_array().unwrap().iter();
+        values.map(|x| x.as_f64().unwrap()).collect()
+    };
+    // Lengths from end to end.
+    for (name, length) in [
+        ("fish-prescribed", 40.0),
+        ("eel-wave", 2.6),
+        ("pendulum-hinges", 3.0),
+        ("pendulum-balls", 3.0),
+    ] {
+        let scene = Scene::load(format!("{folder}/scenes/{name}.toml").as_ref()).unwrap();
+        for told in vectors[name]["at"].as_array().unwrap() {
+            let until = told["t"].as_f64().unwrap();
+            let (end, report) = end(&scene, Choice::Accuracy(1e-9), until, false).unwrap();
+            let bodies = end
+                .bodies
+                .attitudes
+                .iter()
+                .zip(told["R"].as_array().unwrap());
+            for (r, told) in bodies {
+                let told: Vec<Vec<f64>> = told.as_array().unwrap().iter().map(numbers).collect();
+                for (row, told) in r.matrix().0.iter().zip(told) {
+                    let off = row.iter().zip(told).map(|(a, b)| (a - b).abs());
+                    assert!(off.fold(0.0, f64::max) < 2e-9, "{name} at {until} s");
+                }
+            }
+            let x = numbers(&told["x"]);
+            let off = (end.position() - Vec3([x[0], x[1], x[2]])).norm();
+            assert!(off < 2e-9 * length, "{name} at {until} s: {off:e} m");
+            let works: Vec<f64> = numbers(&told["joint_work"]);
+            let works: Vec<f64> = works.into_iter().filter(|work| *work != 0.0).collect();
+            assert_eq!(works.len(), end.drives.len());
+            let scale = works
+                .iter()
+                .fold(report.energy_kinetic_max_joules, |m, x| m.max(x.abs()));
+            for (drive, work) in end.drives.iter().zip(works) {
+                let off = (drive.work - work).abs() / scale;
+                assert!(off < 1e-9, "{name} at {until} s: work {off:e} off");
+            }
+            let energy = told["energy"].as_f64().unwrap();
+            let off = (end.sample.energy - energy).abs() / scale;
+            assert!(off < 1e-9, "{name} at {until} s: energy {off:e} off");
+            let off = report.energy_error_max_joules / scale;
+            assert!(off < 1e-9, "{name} at {until} s: balance {off:e} off");
+        }
+    }
+}
