@@ -1,18 +1,20 @@
 //! What a body costs: time per evaluation and per step of several methods, and memory, of a chain of ball joints against its number of bodies.
 //!
-//! `cargo run --release -p lgvi-study --example bodies [BODIES ...]`: by default 1, 3, 10, 30, 100, 300 and 1000 bodies. The joints
-//! are general and the matrices full; the forced chain has a brake on every joint. Times are the shortest of repeated runs; their ratios
-//! carry over between machines.
+//! `cargo run --release -p lgvi-study --example bodies [hinge] [BODIES ...]`: by default 1, 3, 10, 30, 100, 300 and 1000 bodies. The joints
+//! are general and the matrices full; the forced chain has a brake on every joint. With `hinge`: chains of other joints beside it, in
+//! nanoseconds per body. Times are the shortest of repeated runs; their ratios carry over between machines.
 
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint};
+use articulated_fluid::motion::Sinusoid;
+use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, JointKind, Motion};
 use dvi::{
-    Composition, Context, ContinuousSystem, Discretised, Force, Forced, Integrator, Lagrangian,
-    Quadrature, State, StepError, Variational,
+    Composition, Context, ContinuousSystem, Discretised, Force, Forced, Gauss, Integrator,
+    Lagrangian, Quadrature, State, StepError, Variational,
 };
-use lie::{AlgebraOver, DualOver, LieGroup, Mat3, Power, R3, SO3, Scalar, Tangent, Vec3};
+use lie::{AlgebraOver, DualOver, LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
 
 /// Step size, s.
 const H: f64 = 1e-3;
@@ -20,12 +22,16 @@ const H: f64 = 1e-3;
 const LONG: Duration = Duration::from_millis(400);
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut counts = std::env::args()
-        .skip(1)
-        .map(|n| n.parse())
-        .collect::<Result<Vec<usize>, _>>()?;
+    let mut words: Vec<String> = std::env::args().skip(1).collect();
+    let of_hinges = words.first().is_some_and(|word| word == "hinge");
+    words.drain(..usize::from(of_hinges));
+    let counts = words.iter().map(|n| n.parse());
+    let mut counts = counts.collect::<Result<Vec<usize>, _>>()?;
     if counts.is_empty() {
         counts = vec![1, 3, 10, 30, 100, 300, 1000];
+    }
+    if of_hinges {
+        return by_joints(&counts);
     }
     println!(
         "{:>6} | {:>11} {:>8} | {:>11} {:>8} {:>10} | {:>11} {:>13} | {:>9}",
@@ -49,8 +55,63 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
+/// A name, and the joint of body number k.
+type Kind = (&'static str, fn(usize) -> JointKind);
+
+/// A row for each number of bodies, of chains of several joints: an evaluation and a step, per body.
+fn by_joints(counts: &[usize]) -> Result<(), Box<dyn std::error::Error>> {
+    let kinds: [Kind; 4] = [
+        ("balls", |_| JointKind::Ball),
+        ("hinges", hinge),
+        ("prescribed", prescribed),
+        ("mixed", |k| match k % 4 {
+            0 => JointKind::Ball,
+            1 => hinge(k),
+            2 => prescribed(k),
+            _ => JointKind::fixed(SO3::identity()),
+        }),
+    ];
+    let title = |(name, _): &Kind| format!("{name:>12} {:>8} {:>8}", "lgvi", "gauss-4");
+    println!(
+        "bodies | {}",
+        kinds.iter().map(title).collect::<Vec<_>>().join(" | ")
+    );
+    for n in counts {
+        let mut row = format!("{n:>6}");
+        for (_, kind) in &kinds {
+            let (model, start) = chain(*n, kind)?;
+            let evaluation = evaluation(&model, &start);
+            let lgvi = step(Variational::new(model.clone()), &start)?;
+            let gauss = step(Gauss::new::<4>(model), &start)?;
+            let [evaluation, lgvi, gauss] = [evaluation, lgvi, gauss].map(|t| 1e9 * t / *n as f64);
+            row += &format!(" | {evaluation:>12.1} {lgvi:>8.1} {gauss:>8.1}");
+        }
+        println!("{row}");
+    }
+    Ok(())
+}
+
+fn hinge(k: usize) -> JointKind {
+    let rest = SO3::exp(&Tangent([0.1, 0.05 * (k % 3) as f64, -0.1]));
+    JointKind::hinge(Vec3([0.2, 0.1 * (k % 5) as f64, 1.0]), rest)
+}
+
+fn prescribed(k: usize) -> JointKind {
+    let turn = Sinusoid {
+        amplitude: [0.0, 0.01, 0.02],
+        frequency: 1.0,
+        phase: [0.0, 0.7, 0.7 * k as f64],
+        ..Sinusoid::constant([0.02, 0.0, 0.0])
+    };
+    let (rest, turn) = (SO3::identity(), Arc::new(turn));
+    JointKind::Prescribed(Motion::Ball { rest, turn })
+}
+
 /// A chain of ellipsoid-like bodies with full matrices, bent and moving.
-fn chain(n: usize) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn std::error::Error>> {
+fn chain(
+    n: usize,
+    kind: impl Fn(usize) -> JointKind,
+) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn std::error::Error>> {
     let tilt = |k: usize| SO3::exp(&Tangent([0.3, -0.2, 0.1 + 0.01 * (k % 7) as f64]));
     let turned = |r: SO3, d: [f64; 3]| r.matrix().conjugate(Mat3::diagonal(d));
     let body = |k: usize| Body {
@@ -62,7 +123,7 @@ fn chain(n: usize) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn st
         child,
         at_parent: Vec3([5.5, 0.1, -0.05]),
         at_child: Vec3([-5.5, 0.05, 0.1]),
-        kind: Default::default(),
+        kind: kind(child),
     };
     let bodies: Vec<_> = (0..n).map(body).collect();
     let joints: Vec<_> = (1..n).map(joint).collect();
@@ -72,16 +133,14 @@ fn chain(n: usize) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn st
     // Slow: the far end of a long chain whips, and the cost of a body is not to depend on that.
     let slow = |k| 0.1 * wave(k);
     let rate = |k| Tangent([slow(k), 2.0 * slow(k + 1), slow(k + 3)]);
-    let g = (
-        (0..n).map(attitude).collect::<Power<_>>(),
-        Power::new(vec![R3::identity()]),
-        Power::new(vec![]),
-    );
-    let xi = (
-        (0..n).map(rate).collect::<Power<_>>(),
-        Power::new(vec![Tangent([0.0; 3])]),
-        Power::new(vec![]),
-    );
+    let mut g = model.aligned();
+    let mut xi = g.zero_algebra();
+    for (k, (r, omega)) in g.0.iter_mut().zip(xi.0.iter_mut()).enumerate() {
+        (*r, *omega) = (attitude(k), rate(k));
+    }
+    for (k, (q, dq)) in g.2.iter_mut().zip(xi.2.iter_mut()).enumerate() {
+        (q.0[0], dq[0]) = (wave(k), slow(k));
+    }
     let state = model.state(0.0, g, &xi)?;
     Ok((model, state))
 }
@@ -112,7 +171,7 @@ impl Force for Brake {
 }
 
 fn row(n: usize) -> Result<(), Box<dyn std::error::Error>> {
-    let (model, start) = chain(n)?;
+    let (model, start) = chain(n, |_| JointKind::Ball)?;
     let evaluation = evaluation(&model, &start);
     let mut integrator = Variational::new(model.clone());
     let mut state = start.clone();
@@ -151,10 +210,12 @@ fn step(
 
 /// Seconds of one evaluation of velocity and force.
 fn evaluation(model: &ArticulatedBody, state: &State<Configuration>) -> f64 {
-    let (at, mut workspace) = (Context::new(0.0, &[]), Default::default());
+    let (mut times, mut workspace) = ([0.0, H].into_iter().cycle(), Default::default());
     let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
     let evaluated: Result<f64, core::convert::Infallible> = shortest(|| {
         let (g, mu) = black_box((&state.g, &state.mu));
+        // What moves as told is read once for each time.
+        let at = Context::new(times.next().unwrap_or(0.0), &[]);
         model.velocity_and_force::<f64>(at, g, mu, &mut workspace, &mut xi, &mut tau);
         black_box((&xi, &tau));
         Ok(())

@@ -316,7 +316,8 @@ pub const KEYS: &[Key] = &[
         "a path, from the folder of the scene",
         "a sinusoid",
         "a CSV table whose first row has names: time in s, then the angle or the three numbers in rad; \
-         a cubic spline goes through its rows",
+         a cubic spline goes through its rows; steps do not end at its times, where the third derivative jumps, \
+         so that no method is of higher order than 3 across them",
     ),
     key(
         "joint.motion.columns",

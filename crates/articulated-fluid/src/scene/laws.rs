@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use super::entry::{Table, Value};
 use super::error::SceneError;
-use crate::motion::{Ends, Law, Sinusoid, Spline};
+use super::{MOST_BYTES, read_bounded};
+use crate::motion::{Ends, Law, Sinusoid, Spline, SplineError};
 
 /// A law that may be shared.
 pub(super) type Shared<const N: usize> = Arc<dyn Law<N>>;
@@ -159,8 +160,19 @@ fn measured<const N: usize>(motion: &Table, file: &Value) -> Result<Shared<N>, S
         return Err(columns.wrong(&what));
     }
     let path = file.beside_the_scene()?;
-    let points = rows::<N>(&path, names.as_deref()).map_err(|what| file.fail(&what))?;
-    let spline = Spline::new(&points, ends).map_err(|error| file.fail(&error.to_string()))?;
+    let rows = rows::<N>(&path, names.as_deref()).map_err(|what| file.fail(&what))?;
+    let (lines, points): (Vec<u64>, Vec<_>) = rows.into_iter().unzip();
+    let spline = Spline::new(&points, ends).map_err(|error| {
+        let what = match error {
+            SplineError::Order { row, .. } => format!(
+                "{}:{}: the time does not come after the one before, or a number is not finite; expected increasing times and finite numbers",
+                path.display(),
+                lines[row]
+            ),
+            error => error.to_string(),
+        };
+        file.fail(&what)
+    })?;
     Ok(Arc::new(spline))
 }
 
@@ -168,17 +180,26 @@ fn column_names<'a>(columns: &Value<'a>) -> Result<Vec<&'a str>, SceneError> {
     columns.elements()?.iter().map(Value::text).collect()
 }
 
+/// A row of a table: its line, its time, and its numbers.
+type Row<const N: usize> = (u64, (f64, [f64; N]));
+
 /// The time and `N` numbers of each row; without names, of the first columns.
 fn rows<const N: usize>(
     path: &std::path::Path,
     names: Option<&[&str]>,
-) -> Result<Vec<(f64, [f64; N])>, String> {
+) -> Result<Vec<Row<N>>, String> {
     let shown = path.display();
+    let bytes = read_bounded(path).map_err(|error| format!("{shown} cannot be read: {error}"))?;
+    if bytes.len() > MOST_BYTES {
+        let most = MOST_BYTES / 1_000_000;
+        return Err(format!(
+            "{shown} has more than {most} MB; expected a table of fewer rows"
+        ));
+    }
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .comment(Some(b'#'))
-        .from_path(path)
-        .map_err(|error| format!("{shown} cannot be read: {error}"))?;
+        .from_reader(&bytes[..]);
     let header = reader
         .headers()
         .map_err(|error| format!("{shown}: {error}"))?;
@@ -210,7 +231,7 @@ fn rows<const N: usize>(
         for (value, place) in values.iter_mut().zip(&places[1..]) {
             *value = number(*place)?;
         }
-        points.push((number(places[0])?, values));
+        points.push((line, (number(places[0])?, values)));
     }
     Ok(points)
 }

@@ -114,7 +114,7 @@ impl Scene {
 }
 
 /// The bytes of a file, or as many as tell that it is too large: it may be a device without end.
-fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+pub(crate) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = vec![];
     let file = File::open(path)?;
     file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
