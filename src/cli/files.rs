@@ -1,5 +1,6 @@
 //! A picture twice and its numbers: three files.
 
+use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -61,14 +62,21 @@ impl CompleteFiles {
     }
 }
 
-/// The stem's name with an ending after it, whatever dots it has; none where the stem is a directory's.
+/// The stem's name with an ending after it, in place of another of them; none where the stem is a directory's.
 fn with_ending(stem: &Path, ending: &str) -> Option<PathBuf> {
     let text = stem.as_os_str().as_encoded_bytes();
     let is_directory = |&byte: &u8| std::path::is_separator(byte.into());
     if text.last().is_some_and(is_directory) {
         return None;
     }
-    let mut name = stem.file_name()?.to_owned();
+    let is_one_of_them = |own: &OsStr| ENDINGS.iter().any(|ending| own == *ending);
+    let has_one = stem.extension().is_some_and(is_one_of_them);
+    let name = if has_one {
+        stem.file_stem()
+    } else {
+        stem.file_name()
+    };
+    let mut name = name?.to_owned();
     name.push(".");
     name.push(ending);
     Some(stem.with_file_name(name))

@@ -47,7 +47,7 @@ fn all_numbers_are_in_the_json_and_in_the_table() {
         "--methods",
         "dp853",
         "--out",
-        "c.1",
+        "c.1.svg",
         "--json",
     ];
     let object = json(directory.path(), &args);

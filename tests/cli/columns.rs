@@ -82,3 +82,64 @@ fn help_tells_every_column_and_which_are_asked_for() {
         assert!(help.contains(word), "{word}: {help}");
     }
 }
+
+#[test]
+fn a_driven_run_tells_the_work_of_its_joints() {
+    let directory = directory();
+    let fish = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/swim/fish.toml");
+    let args = [
+        "run",
+        fish,
+        "--until",
+        "1",
+        "--every-seconds",
+        "0.1",
+        "--out",
+        "f.csv",
+        "--all-columns",
+    ];
+    let told = lgvi(directory.path(), &args);
+    assert_eq!(told.status.code(), Some(0), "{}", text(&told.stderr));
+    let told = text(&told.stdout);
+    assert!(
+        told.contains("work of what moves as told") && told.contains("energy less work, error")
+    );
+    let table = fs::read_to_string(directory.path().join("f.csv")).unwrap();
+    let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| -> Vec<f64> {
+        let at = names
+            .iter()
+            .position(|n| *n == name)
+            .unwrap_or_else(|| panic!("{name} in {names:?}"));
+        table
+            .lines()
+            .skip(1)
+            .map(|row| row.split(',').nth(at).unwrap().parse().unwrap())
+            .collect()
+    };
+    let works: Vec<_> = names
+        .iter()
+        .filter(|name| name.ends_with(".work"))
+        .copied()
+        .collect();
+    assert!(!works.is_empty());
+    let energy = column("energy");
+    for k in 0..energy.len() {
+        let work: f64 = works.iter().map(|name| column(name)[k]).sum();
+        // An accuracy of 1e-6 is the default.
+        assert!(
+            (energy[k] - energy[0] - work).abs() < 1e-5 * energy[0].abs().max(1.0),
+            "row {k}"
+        );
+    }
+    for name in &works {
+        let joint = name.trim_end_matches(".work");
+        let (work, power) = (column(name), column(&format!("{joint}.power")));
+        let t = column("t");
+        for k in 1..t.len() {
+            let mean = (work[k] - work[k - 1]) / (t[k] - t[k - 1]);
+            assert!((power[k] - mean).abs() < 1e-9 * (1.0 + mean.abs()));
+        }
+        assert!(column(&format!("{joint}.tz")).iter().any(|x| x.abs() > 0.0));
+    }
+}

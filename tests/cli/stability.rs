@@ -138,3 +138,27 @@ fn what_is_asked_wrongly_is_refused_before_any_run() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(files(directory.path()), ["s.csv"]);
 }
+
+/// Its energy is not kept, which is no fault of a method.
+#[test]
+fn a_driven_fish_has_good_steps() {
+    let directory = directory();
+    let fish = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/swim/fish.toml");
+    let args = [
+        "stability",
+        fish,
+        "--until",
+        "2",
+        "--methods",
+        "composition-2,gauss-4",
+        "--steps",
+        "0.01,0.02",
+        "--values",
+        "1",
+    ];
+    let output = lgvi(directory.path(), &args);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let told = text(&output.stdout);
+    assert!(told.contains("energy is not judged"), "{told}");
+    assert!(told.contains("4 runs: 4 good"), "{told}");
+}

@@ -76,7 +76,7 @@ Examples:
 A run takes as many whole steps as --until has room for, and is judged by the first of these that holds:
   non-finite      a number was not finite; ends the run
   refused         a step was refused with an error; ends the run
-  energy-band     the energy was off by 10 % of the largest kinetic energy; ends the run
+  energy-band     the energy was off by 10 % of the largest kinetic energy; ends the run. It is not judged where joints move as told
   energy-drift    the line through the energy's error moved by 1 % of it, and explains half of the error's variance
   group-left      ||I - R^T R||_F above 1e-6
   momentum-lost   a momentum off by 1e-6 of the one that the largest kinetic energy would have

@@ -23,12 +23,13 @@ impl Report<'_> {
     pub fn text(&self) -> String {
         let grid = &self.map.grid;
         let mut text = format!(
-            "{}\n\nThe largest good step, s, and what ends there, by {} ({})\n\n{}\n",
+            "{}\n\nThe largest good step, s, and what ends there, by {} ({})\n\n{}",
             self.title,
             grid.parameter,
             grid.parameter.description(),
             print::columns(&self.table()),
         );
+        text += self.unjudged();
         let own = self.own();
         for method in 0..grid.methods.len() {
             if let Some(cause) = self.cause(method, own) {
@@ -49,6 +50,19 @@ impl Report<'_> {
             one_line(&files.join(", "))
         );
         text
+    }
+
+    /// What the motion does not keep.
+    fn unjudged(&self) -> &'static str {
+        let model = &self.loaded.smallest.model;
+        match (model.keeps_energy(), model.keeps_momentum()) {
+            (true, true) => "\n",
+            (false, true) => "\nenergy is not judged: what moves as told does work\n\n",
+            (true, false) => "\nmomenta are not judged: the first body hangs on the world\n\n",
+            (false, false) => {
+                "\nenergy and momenta are not judged: what moves as told does work, and the first body hangs on the world\n\n"
+            }
+        }
     }
 
     fn table(&self) -> Vec<Vec<String>> {

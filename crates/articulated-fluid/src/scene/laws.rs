@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::entry::{Table, Value};
-use super::error::SceneError;
-use super::{MOST_BYTES, read_bounded};
+use super::error::{MOST_BYTES, SceneError};
+use super::source::read_bounded;
 use crate::motion::{Ends, Law, Sinusoid, Spline, SplineError};
 
 /// A law that may be shared.

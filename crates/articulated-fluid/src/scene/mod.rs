@@ -35,8 +35,7 @@ mod source;
 mod start;
 mod values;
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 pub use description::{Form, Scene, SceneBody, SceneJoint, SceneMount, StartVelocity};
@@ -48,7 +47,7 @@ pub use overlap::{Overlap, Overlaps};
 
 use entry::{Table, Value};
 use forms::Surroundings;
-use source::Source;
+use source::{Source, read_bounded};
 
 /// A scene file with every key, as shown in the documentation of this module.
 pub const EXAMPLE: &str = include_str!("example.toml");
@@ -111,14 +110,6 @@ impl Scene {
             Err(source) => Err(SceneError::Io { file, source }),
         }
     }
-}
-
-/// The bytes of a file, or as many as tell that it is too large: it may be a device without end.
-pub(crate) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = vec![];
-    let file = File::open(path)?;
-    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// All but the notes.

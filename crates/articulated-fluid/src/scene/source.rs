@@ -1,12 +1,14 @@
 //! The text of a scene file: its syntax, and messages as `FILE:LINE:COLUMN: KEY: what is wrong`.
 
 use std::cell::{OnceCell, RefCell};
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use toml::Spanned;
 use toml::de::DeTable;
 
-use super::error::SceneError;
+use super::error::{MOST_BYTES, SceneError};
 use super::note::Note;
 
 /// Longest piece of the file's own text in a message, in characters.
@@ -90,6 +92,14 @@ impl<'a> Source<'a> {
         notes.sort_by_key(|note| note.line);
         notes
     }
+}
+
+/// The bytes of a file, or as many as tell that it is too large: it may be a device without end.
+pub(super) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = vec![];
+    let file = File::open(path)?;
+    file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// What is left of `=` in the line of `offset`: broken text has no other key.

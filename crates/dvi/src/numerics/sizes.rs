@@ -10,8 +10,10 @@ use super::numbers::{exponent, larger, power_of_two, relative};
 const DIGITS: u32 = 8;
 /// A correction of this part of the tolerance, relative to the displacement, is not made.
 const SETTLED: f64 = 0.1;
-/// Roundings of an evaluation may add up to so many times what shaking its arguments makes of it.
+/// Roundings of an evaluation may add up to so many times what shaking its arguments makes of it …
 pub(crate) const NOISE: f64 = 16.0;
+/// … and once more for so many blocks: along a chain of hinges the attitudes are products, and the moments are sums, over all before.
+const CHAIN: f64 = 32.0;
 
 /// The kinds of unit of a group's coordinates, and how large numbers of each kind are.
 #[derive(Clone)]
@@ -282,8 +284,9 @@ impl Sizes {
         (correction, whole): (&V, &V),
         tolerance: f64,
     ) -> bool {
+        let noise = NOISE * (1.0 + self.blocks.len() as f64 / CHAIN);
         let settled = |block: &Block| {
-            block.size <= larger(tolerance * block.scale, NOISE * block.noise) || {
+            block.size <= larger(tolerance * block.scale, noise * block.noise) || {
                 let [part, all] = [correction, whole].map(|x| {
                     let numbers = block.coordinates.clone().map(|i| x.get(i).abs());
                     numbers.fold(0.0, larger)

@@ -111,7 +111,7 @@ pub struct Outcome {
     /// How far the run came, s.
     #[serde(rename = "time_seconds")]
     pub t: f64,
-    /// The largest error of the energy, relative to the largest kinetic energy.
+    /// The largest error of the energy, relative to the largest kinetic energy; none where what moves as told does work.
     #[serde(rename = "energy_error_relative")]
     pub energy: Option<f64>,
     /// By how much the line through that error moved, over the time that was run.
@@ -120,7 +120,7 @@ pub struct Outcome {
     /// The part of that error's variance that the line explains.
     #[serde(rename = "energy_trend")]
     pub trend: f64,
-    /// The largest error of a momentum, relative as [`MOMENTUM`] says.
+    /// The largest error of a momentum, relative as [`MOMENTUM`] says; none where the first body hangs on the world.
     #[serde(rename = "momentum_error_relative")]
     pub momentum: Option<f64>,
     /// The largest orthogonality error.
@@ -195,6 +195,9 @@ pub(super) enum End {
 /// What of a run is judged by.
 pub(super) struct Judge {
     watch: Watch,
+    /// Whether the motion keeps them.
+    keeps_energy: bool,
+    keeps_momentum: bool,
     /// kg, kg m²: of all bodies, the mean over the directions.
     mass: f64,
     inertia: f64,
@@ -209,6 +212,8 @@ impl Judge {
         let bodies = || model.bodies();
         Self {
             watch: Watch::new(model, start).with_kinetic(kinetic),
+            keeps_energy: model.keeps_energy(),
+            keeps_momentum: model.keeps_momentum(),
             mass: bodies().map(|body| body.mass.trace() / 3.0).sum(),
             inertia: bodies().map(|body| body.inertia.trace() / 3.0).sum(),
             attitude: None,
@@ -225,7 +230,8 @@ impl Judge {
 
     fn is_off_band(&self) -> bool {
         // Without a kinetic energy there is nothing to compare with, and any error is out of the band.
-        self.watch.energy_relative().is_none_or(|e| e > ENERGY_BAND)
+        let is_off = || self.watch.energy_relative().is_none_or(|e| e > ENERGY_BAND);
+        self.keeps_energy && is_off()
     }
 
     /// Takes an angle from the reference into account, rad.
@@ -253,14 +259,16 @@ impl Judge {
     }
 
     fn class_at_end(&self) -> Class {
-        let drifts = self.drift().is_none_or(|drift| drift > ENERGY_DRIFT);
+        let moved = || self.drift().is_none_or(|drift| drift > ENERGY_DRIFT);
+        let drifts = self.keeps_energy && moved();
+        let strayed = || self.momentum().is_none_or(|error| error > MOMENTUM);
         if self.is_off_band() {
             Class::EnergyBand
         } else if drifts && self.watch.energy_trend() >= ENERGY_TREND {
             Class::EnergyDrift
         } else if self.watch.orthogonality() > GROUP {
             Class::GroupLeft
-        } else if self.momentum().is_none_or(|error| error > MOMENTUM) {
+        } else if self.keeps_momentum && strayed() {
             Class::MomentumLost
         } else {
             match self.attitude {
@@ -286,10 +294,10 @@ impl Judge {
         Outcome {
             class,
             t: refused_at.as_ref().map_or(self.t, |state| state.t),
-            energy: self.watch.energy_relative(),
-            drift: self.drift(),
+            energy: self.watch.energy_relative().filter(|_| self.keeps_energy),
+            drift: self.drift().filter(|_| self.keeps_energy),
             trend: self.watch.energy_trend(),
-            momentum: self.momentum(),
+            momentum: self.momentum().filter(|_| self.keeps_momentum),
             orthogonality: self.watch.orthogonality(),
             attitude: self.attitude,
             failure,

@@ -18,7 +18,7 @@ pub struct Errors {
     /// The largest distance of a mass centre from the reference's, m.
     #[serde(rename = "position_error_metres")]
     pub position: f64,
-    /// Of the energy, relative to the largest kinetic one; `None` where that is zero.
+    /// Of the energy, relative to the largest kinetic one; `None` where that is zero, or where what moves as told does work.
     #[serde(rename = "energy_error_relative")]
     pub energy: Option<f64>,
     /// The slope of that error by least squares, 1/s.
@@ -62,8 +62,8 @@ impl Errors {
         Ok(Self {
             attitude,
             position,
-            energy: watch.energy_relative(),
-            energy_slope: watch.energy_slope(),
+            energy: watch.energy_relative().filter(|_| model.keeps_energy()),
+            energy_slope: watch.energy_slope().filter(|_| model.keeps_energy()),
             linear_momentum: watch.linear(),
             angular_momentum: watch.angular(),
             orthogonality: watch.orthogonality(),
