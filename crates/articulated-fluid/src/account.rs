@@ -222,7 +222,7 @@ fn anisotropy(mass: &[[f64; 3]; 3]) -> f64 {
 
 /// The group in space and its dimension.
 fn space(model: &ArticulatedBody) -> (String, usize) {
-    let (roots, hinges) = (model.roots.len(), model.hinges.len());
+    let (roots, hinges) = (model.joints.roots.len(), model.joints.hinges.len());
     if model.is_simple() {
         return (product("SO(3)", "R^3", roots), 3 * roots + 3);
     }

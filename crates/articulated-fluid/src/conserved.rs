@@ -84,7 +84,7 @@ impl ArticulatedBody {
         let x = self.base_position(pose, g);
         let spins: Vec<Vec3> = match self.is_free() {
             true => {
-                let roots = self.roots.iter().zip(mu.0.iter());
+                let roots = self.joints.roots.iter().zip(mu.0.iter());
                 roots.map(|(i, p)| r[*i].rotate(p.vec3())).collect()
             }
             false => r.iter().zip(&momenta).map(|(r, p)| r.rotate(*p)).collect(),

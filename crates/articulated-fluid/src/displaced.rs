@@ -147,9 +147,9 @@ impl ArticulatedBody {
         for (i, node) in self.nodes.iter().enumerate().rev() {
             let (plus, minus) = (n_plus[i].vec3(), n_minus[i].vec3());
             // An attitude is moved at the start of the step, an angle at both ends alike.
-            let at_start = match node.role {
-                Role::Ball(_) => step.f[i].rotate(plus),
-                _ => plus,
+            let at_start = match node.role.is_root() {
+                true => step.f[i].rotate(plus),
+                false => plus,
             };
             self.project(i, minus + at_start, d_g);
             if self.project(i, plus, d_f) {

@@ -46,7 +46,7 @@ impl<S: Scalar> Elimination<S> {
     fn make_links(&mut self, tree: &ArticulatedBody) {
         let bodies = tree.nodes.iter().zip(&tree.masses);
         self.links = bodies.map(|(node, mass)| Link::alone(node, mass)).collect();
-        self.hinges = vec![HingeFactors::at_rest(); tree.hinges.len()];
+        self.hinges = vec![HingeFactors::at_rest(); tree.joints.hinges.len()];
         self.tree = Some(tree.identity);
     }
 

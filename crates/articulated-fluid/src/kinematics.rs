@@ -117,9 +117,9 @@ impl ArticulatedBody {
     ) -> ModelError {
         ModelError::Shape {
             expected: [
-                self.roots.len(),
+                self.joints.roots.len(),
                 usize::from(self.is_free()),
-                self.hinges.len(),
+                self.joints.hinges.len(),
             ],
             found: [r.len(), x.len(), q.len()],
         }

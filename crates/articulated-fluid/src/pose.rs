@@ -110,7 +110,7 @@ impl ArticulatedBody {
             Base::Free => None,
             Base::Held { place, .. } => Some(place.told()),
         };
-        let all = self.motions.iter().map(Motion::told).chain(place);
+        let all = self.joints.motions.iter().map(Motion::told).chain(place);
         all.fold([f64::NEG_INFINITY, f64::INFINITY], |[a, b], [from, to]| {
             [a.max(from), b.min(to)]
         })
@@ -118,7 +118,11 @@ impl ArticulatedBody {
 
     /// Whether all motions are numbers at the time `t`.
     pub(crate) fn knows(&self, t: f64) -> bool {
-        let known = self.motions.iter().all(|motion| motion.at(t).1.is_finite());
+        let known = self
+            .joints
+            .motions
+            .iter()
+            .all(|motion| motion.at(t).1.is_finite());
         let placed = match &self.base {
             Base::Free => true,
             Base::Held { place, .. } => place.derivative(t, 0).iter().all(|x| x.is_finite()),

@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use lie::{AlgebraOver, DualOver, Mat3, Power, R3, Rn, SO3, Vec3};
 
 use crate::error::ModelError;
-use crate::joints::{Hinge, JointKind, Link};
+use crate::joints::{JointKind, Joints, Link};
 use crate::loads::Loads;
-use crate::motion::{Law, Motion};
+use crate::motion::Law;
 use crate::node::{Body, Joint, Node};
 
 /// What the joints leave free, grouped by kind: attitudes, the position of a free base, hinge angles.
@@ -51,10 +51,7 @@ pub struct ArticulatedBody {
     pub(crate) nodes: Vec<Node>,
     pub(crate) loads: Loads,
     pub(crate) base: Base,
-    pub(crate) hinges: Vec<Hinge>,
-    pub(crate) motions: Vec<Motion>,
-    /// The bodies whose attitudes are unknowns.
-    pub(crate) roots: Vec<usize>,
+    pub(crate) joints: Joints,
     pub(crate) identity: Identity,
 }
 
@@ -150,9 +147,7 @@ impl ArticulatedBody {
             masses: bodies.iter().map(|body| body.mass).collect(),
             nodes: Vec::with_capacity(bodies.len()),
             loads: Loads::default(),
-            hinges: vec![],
-            motions: vec![],
-            roots: vec![],
+            joints: Joints::default(),
             base: base.clone(),
             identity: Identity::new(),
         };
@@ -177,12 +172,10 @@ impl ArticulatedBody {
         kind: &JointKind,
     ) -> Result<(), ModelError> {
         let index = self.nodes.len();
-        if let JointKind::Hinge(hinge) = kind
-            && !hinge.is_sound()
-        {
+        if !kind.is_sound() {
             return Err(ModelError::Hinge { body: index });
         }
-        let role = self.take_role(kind);
+        let role = self.joints.take(index, kind);
         let on = self.nodes.get(parent).map_or(Vec3::zero(), |p| p.at_self);
         self.nodes.push(Node::new(body, (parent, points), on, role));
         Ok(())
@@ -191,7 +184,7 @@ impl ArticulatedBody {
     /// Whether a body hangs by another joint than a ball.
     #[inline(always)]
     pub(crate) fn has_inner(&self) -> bool {
-        self.roots.len() != self.nodes.len()
+        self.joints.roots.len() != self.nodes.len()
     }
 
     /// Whether the first body is on nothing.
@@ -218,7 +211,7 @@ impl ArticulatedBody {
 
     /// Whether a joint or a place moves as told.
     pub(crate) fn moves_as_told(&self) -> bool {
-        self.is_carried() || self.motions.iter().any(Motion::is_driven)
+        self.is_carried() || self.joints.are_driven()
     }
 
     /// Whether the first body hangs on a place that moves.
@@ -246,22 +239,22 @@ impl ArticulatedBody {
             child,
             at_parent: node.at_parent,
             at_child: node.at_self,
-            kind: self.kind(node.role),
+            kind: self.joints.kind(node.role),
         })
     }
 
     /// The aligned configuration: all attitudes the identity, the first body at the origin, hinges at the angle 0.
     pub fn aligned(&self) -> Configuration {
         (
-            Power::new(vec![SO3::identity(); self.roots.len()]),
+            Power::new(vec![SO3::identity(); self.joints.roots.len()]),
             Power::new(vec![R3::identity(); usize::from(self.is_free())]),
-            Power::new(vec![Rn([0.0]); self.hinges.len()]),
+            Power::new(vec![Rn([0.0]); self.joints.hinges.len()]),
         )
     }
 
     /// The coordinates of $x$.
     pub(crate) fn translation(&self) -> Range<usize> {
-        let first = 3 * self.roots.len();
+        let first = 3 * self.joints.roots.len();
         first..first + 3 * usize::from(self.is_free())
     }
 
@@ -273,9 +266,9 @@ impl ArticulatedBody {
         let found = [rotations.len(), translations.len(), angles.len()];
         found
             == [
-                self.roots.len(),
+                self.joints.roots.len(),
                 usize::from(self.is_free()),
-                self.hinges.len(),
+                self.joints.hinges.len(),
             ]
     }
 }

@@ -131,7 +131,7 @@ fn chain(
     let wave = |k: usize| 0.1 * (0.7 * k as f64).sin();
     let attitude = |k| SO3::exp(&Tangent([0.0, wave(k), wave(k + 2)]));
     // Slow: the far end of a long chain whips, and the cost of a body is not to depend on that.
-    let slow = |k| 0.1 * wave(k);
+    let slow = |k| 0.1 * wave(k) * (30.0 / n as f64).min(1.0);
     let rate = |k| Tangent([slow(k), 2.0 * slow(k + 1), slow(k + 3)]);
     let mut g = model.aligned();
     let mut xi = g.zero_algebra();

@@ -2,43 +2,16 @@
 
 use lie::{Mat3, SO3, Scalar, Vec3};
 
-use super::{HingeFactors, JointKind, Link, Role};
+use super::{HingeFactors, Link, Role};
 use crate::displaced::Angles;
 use crate::pose::{Drive, Pose};
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
 impl ArticulatedBody {
-    /// The role of a new body on a joint of this kind, which the tree keeps.
-    pub(crate) fn take_role(&mut self, kind: &JointKind) -> Role {
-        match kind {
-            JointKind::Ball => {
-                self.roots.push(self.nodes.len());
-                Role::Ball(self.roots.len() - 1)
-            }
-            JointKind::Hinge(hinge) => {
-                self.hinges.push(*hinge);
-                Role::Hinge(self.hinges.len() - 1)
-            }
-            JointKind::Prescribed(motion) => {
-                self.motions.push(motion.clone());
-                Role::Prescribed(self.motions.len() - 1)
-            }
-        }
-    }
-
-    /// The kind of joint of this role.
-    pub(crate) fn kind(&self, role: Role) -> JointKind {
-        match role {
-            Role::Ball(_) => JointKind::Ball,
-            Role::Hinge(k) => JointKind::Hinge(self.hinges[k]),
-            Role::Prescribed(k) => JointKind::Prescribed(self.motions[k].clone()),
-        }
-    }
-
     /// Whether the joint of body `i` turns it as told.
     pub(crate) fn is_turned(&self, i: usize) -> bool {
         match self.nodes[i].role {
-            Role::Prescribed(k) => self.motions[k].is_driven(),
+            Role::Prescribed(k) => self.joints.motions[k].is_driven(),
             _ => false,
         }
     }
@@ -46,7 +19,7 @@ impl ArticulatedBody {
     /// $C_i$ and $a_i$ of a joint that moves as told, into the pose.
     pub(crate) fn read_motion<S: Scalar>(&self, t: S, i: usize, pose: &mut Pose<S>) {
         if let Role::Prescribed(k) = self.nodes[i].role {
-            (pose.c[i], pose.rates[i]) = self.motions[k].at(t);
+            (pose.c[i], pose.rates[i]) = self.joints.motions[k].at(t);
         }
     }
 
@@ -60,7 +33,7 @@ impl ArticulatedBody {
     ) -> Option<SO3<S>> {
         match self.nodes[i].role {
             Role::Ball(k) => return Some(g.0[k]),
-            Role::Hinge(k) => pose.c[i] = self.hinges[k].relative(g.2[k].0[0]),
+            Role::Hinge(k) => pose.c[i] = self.joints.hinges[k].relative(g.2[k].0[0]),
             Role::Prescribed(_) => {}
         }
         None
@@ -75,7 +48,7 @@ impl ArticulatedBody {
         [now, next]: [&mut Pose<S>; 2],
     ) -> Mat3<S> {
         if let Role::Hinge(k) = self.nodes[i].role {
-            let (hinge, dq) = (&self.hinges[k], angles[k].0[0]);
+            let (hinge, dq) = (&self.joints.hinges[k], angles[k].0[0]);
             next.c[i] = hinge.relative(g.2[k].0[0] + dq);
             return hinge.turn_minus_identity(dq);
         }
@@ -94,7 +67,7 @@ impl ArticulatedBody {
     ) -> Vec3<S> {
         match self.nodes[i].role {
             Role::Ball(k) => omega[k].vec3(),
-            Role::Hinge(k) => turning() + self.hinges[k].axis.lift() * dq[k][0],
+            Role::Hinge(k) => turning() + self.joints.hinges[k].axis.lift() * dq[k][0],
             Role::Prescribed(_) => turning() + pose.rates[i],
         }
     }
@@ -112,7 +85,7 @@ impl ArticulatedBody {
                 out.0[k] = moment.into();
                 return false;
             }
-            Role::Hinge(k) => out.2[k][0] = moment.dot(self.hinges[k].axis.lift()),
+            Role::Hinge(k) => out.2[k][0] = moment.dot(self.joints.hinges[k].axis.lift()),
             Role::Prescribed(_) => {}
         }
         i > 0
@@ -147,7 +120,7 @@ impl ArticulatedBody {
             link.reset(node, &self.masses[i]);
         }
         if let Role::Hinge(k) = node.role {
-            link.eliminate_hinge(self.hinges[k].axis.lift(), &mut hinges[k]);
+            link.eliminate_hinge(self.joints.hinges[k].axis.lift(), &mut hinges[k]);
         }
     }
 
@@ -163,7 +136,7 @@ impl ArticulatedBody {
         match self.nodes[i].role {
             Role::Ball(_) => link.eliminate_force(),
             Role::Hinge(k) => {
-                let axis = self.hinges[k].axis.lift();
+                let axis = self.joints.hinges[k].axis.lift();
                 link.eliminate_hinge_force(axis, mu.2[k][0], &mut hinges[k]);
             }
             Role::Prescribed(_) => link.drive(drive.rate(i)),
@@ -184,7 +157,7 @@ impl ArticulatedBody {
         match node.role {
             Role::Ball(_) => return link.advance(u, node.at_self.lift()),
             Role::Hinge(k) => {
-                let axis = self.hinges[k].axis.lift();
+                let axis = self.joints.hinges[k].axis.lift();
                 link.advance_hinge(axis, (turning, u), &mut hinges[k]);
             }
             Role::Prescribed(_) => link.omega = turning + drive.rate(i),

@@ -55,6 +55,68 @@ impl JointKind {
     }
 }
 
+impl JointKind {
+    /// Whether its numbers make a joint.
+    pub(crate) fn is_sound(&self) -> bool {
+        match self {
+            Self::Hinge(hinge) => hinge.is_sound(),
+            Self::Ball | Self::Prescribed(_) => true,
+        }
+    }
+
+    /// The attitude of the child on the parent and its rate, at the start and an angle with its rate; none where the child has its own.
+    pub(crate) fn relative(&self, [angle, rate]: [f64; 2]) -> Option<(SO3, Vec3)> {
+        match self {
+            Self::Ball => None,
+            Self::Hinge(hinge) => Some((hinge.relative(angle), hinge.axis * rate)),
+            Self::Prescribed(motion) => Some(motion.at(0.0)),
+        }
+    }
+}
+
+/// What the joints of a tree have of their own, kind by kind.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Joints {
+    /// The bodies whose attitudes are unknowns.
+    pub(crate) roots: Vec<usize>,
+    pub(crate) hinges: Vec<Hinge>,
+    pub(crate) motions: Vec<Motion>,
+}
+
+impl Joints {
+    /// Takes the joint of a body, and gives its role.
+    pub(crate) fn take(&mut self, body: usize, kind: &JointKind) -> Role {
+        match kind {
+            JointKind::Ball => {
+                self.roots.push(body);
+                Role::Ball(self.roots.len() - 1)
+            }
+            JointKind::Hinge(hinge) => {
+                self.hinges.push(*hinge);
+                Role::Hinge(self.hinges.len() - 1)
+            }
+            JointKind::Prescribed(motion) => {
+                self.motions.push(motion.clone());
+                Role::Prescribed(self.motions.len() - 1)
+            }
+        }
+    }
+
+    /// The kind of joint of this role.
+    pub(crate) fn kind(&self, role: Role) -> JointKind {
+        match role {
+            Role::Ball(_) => JointKind::Ball,
+            Role::Hinge(k) => JointKind::Hinge(self.hinges[k]),
+            Role::Prescribed(k) => JointKind::Prescribed(self.motions[k].clone()),
+        }
+    }
+
+    /// Whether one moves as told.
+    pub(crate) fn are_driven(&self) -> bool {
+        self.motions.iter().any(Motion::is_driven)
+    }
+}
+
 /// What a body's attitude comes from: the k-th of its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {

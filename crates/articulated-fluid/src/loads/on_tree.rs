@@ -91,9 +91,9 @@ impl ArticulatedBody {
                 Role::Hinge(hinge) => of_hinges.push(HingeSpring {
                     hinge,
                     stiffness,
-                    rest: self.hinges[hinge].rest_angle,
+                    rest: self.joints.hinges[hinge].rest_angle,
                 }),
-                Role::Prescribed(_) => return Err(ModelError::Spring { body: child }),
+                _ => return Err(ModelError::Spring { body: child }),
             }
         }
         self.loads.springs = Springs::new(of_balls);

@@ -6,7 +6,6 @@ use super::description::{SceneBody, SceneJoint, SceneMount};
 use super::entry::{Table, Value};
 use super::error::SceneError;
 use super::mobility::Mobility;
-use crate::joints::JointKind;
 
 /// How a body turns: its attitude and its rate, rad/s in its frame.
 #[derive(Clone, Copy)]
@@ -67,13 +66,7 @@ fn turning(body: &SceneBody) -> Turning {
 
 /// The attitude and the rate relative to the parent, where the joint gives them.
 fn relative(mobility: &Mobility) -> Option<(SO3, Vec3)> {
-    match &mobility.kind {
-        JointKind::Ball => None,
-        JointKind::Hinge(hinge) => {
-            Some((hinge.relative(mobility.angle), hinge.axis * mobility.rate))
-        }
-        JointKind::Prescribed(motion) => Some(motion.at(0.0)),
-    }
+    mobility.kind.relative([mobility.angle, mobility.rate])
 }
 
 /// Refuses attitudes and rates of a body whose joint gives them.
