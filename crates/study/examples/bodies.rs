@@ -100,8 +100,8 @@ fn prescribed(k: usize) -> JointKind {
     let turn = Sinusoid {
         amplitude: [0.0, 0.01, 0.02],
         frequency: 1.0,
-        phase: [0.0, 0.7, 0.7 * k as f64],
-        ..Sinusoid::constant([0.02, 0.0, 0.0])
+        phase: [0.7 * k as f64; 3],
+        ..Sinusoid::constant([0.0; 3])
     };
     let (rest, turn) = (SO3::identity(), Arc::new(turn));
     JointKind::Prescribed(Motion::Ball { rest, turn })
