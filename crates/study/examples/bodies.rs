@@ -139,7 +139,8 @@ fn chain(
         (*r, *omega) = (attitude(k), rate(k));
     }
     for (k, (q, dq)) in g.2.iter_mut().zip(xi.2.iter_mut()).enumerate() {
-        (q.0[0], dq[0]) = (wave(k), slow(k));
+        // What the far end does is the sum of all before it.
+        (q.0[0], dq[0]) = (wave(k), slow(k) / n as f64);
     }
     let state = model.state(0.0, g, &xi)?;
     Ok((model, state))
