@@ -198,12 +198,12 @@ impl<'a> Summary<'a> {
         let text = format!(
             "{} J in all; most by {:?}: {} J, up to {} W and {} N m",
             scientific(total),
-            most.joint,
+            most.name,
             scientific(most.work_joules),
             scientific(most.power_max_watts),
             scientific(most.torque_max_newton_metres),
         );
-        vec![("work of what moves as told", text)]
+        vec![("work of drives and loads", text)]
     }
 
     fn energy(&self) -> Vec<(&'static str, String)> {

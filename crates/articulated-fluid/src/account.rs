@@ -110,7 +110,7 @@ impl Scene {
     fn root_reduction(&self, found: &Found) -> Reduction {
         let root = found.root;
         let why = match root {
-            None if !found.model.is_simple() => BALLS.to_owned(),
+            None if !found.model.has_views() => BALLS.to_owned(),
             Some(root) => format!(
                 "{:?} is heavier than the first body, so the tree hangs on it",
                 self.bodies[root.root()].name
@@ -129,7 +129,7 @@ impl Scene {
     fn drift_reduction(&self, found: &Found) -> Reduction {
         let taken = found.drifts;
         let why = match self.worst(|body| anisotropy(&body.total_mass)) {
-            _ if !found.model.is_simple() => BALLS.to_owned(),
+            _ if !found.model.has_views() => BALLS.to_owned(),
             Some(body) => format!(
                 "the mass of {:?} differs by direction, by {:.3e} of it",
                 body.name,
@@ -176,7 +176,7 @@ impl Scene {
 }
 
 /// Why a view is not taken of other trees.
-const BALLS: &str = "only of a free tree on ball joints";
+const BALLS: &str = "only of a free tree on ball joints without motors, dampers and drag";
 
 fn translation(model: &ArticulatedBody) -> Reduction {
     let why = match model.is_free() {

@@ -9,6 +9,7 @@ use smallvec::SmallVec;
 use crate::displaced::{Expansion, Step};
 use crate::inertia::Elimination;
 use crate::kinematics::PerBody;
+use crate::loads::Scenery;
 use crate::pose::Drive;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
@@ -71,6 +72,8 @@ pub struct StepWorkspace<S = f64> {
     /// By the attitudes of all bodies.
     d_f: Vec<Cotangent<3, S>>,
     d_g: Vec<Cotangent<3, S>>,
+    /// Of the loads that are no gradient.
+    forces: Vec<Vec3<S>>,
     /// $\mathbb I(g_k)$, factorised once a step, and $R_0$ there.
     inertia: Elimination<S>,
     r0: SO3<S>,
@@ -85,11 +88,19 @@ impl<S: Scalar> Default for StepWorkspace<S> {
             expansion: Expansion::default(),
             d_f: Vec::new(),
             d_g: Vec::new(),
+            forces: Vec::new(),
             inertia: Elimination::default(),
             r0: SO3::identity(),
             total_mass: Ldl3::identity(),
         }
     }
+}
+
+/// Storage of what is collected body by body.
+struct ByBody<'a, S> {
+    d_f: &'a mut Vec<Cotangent<3, S>>,
+    d_g: &'a mut Vec<Cotangent<3, S>>,
+    forces: &'a mut Vec<Vec3<S>>,
 }
 
 impl ArticulatedBody {
@@ -125,29 +136,63 @@ impl ArticulatedBody {
     #[inline(always)]
     fn collect<S: Scalar>(
         &self,
-        g: &Configuration<S>,
+        (t, g): (S, &Configuration<S>),
         step: Step<S>,
         (dx, h): (Vec3<S>, S),
         moved: &mut [Moved<S>],
-        [own_f, own_g]: [&mut Vec<Cotangent<3, S>>; 2],
+        ByBody {
+            d_f: own_f,
+            d_g: own_g,
+            forces,
+        }: ByBody<S>,
         out: &mut Derivatives<Configuration, S>,
     ) {
         let Derivatives { d_f, d_g, .. } = out;
-        let on_base = if self.has_inner() {
+        let at = Scenery { t, g, r: step.r };
+        let (on_base, pushed) = if self.has_inner() {
             own_f.resize(self.nodes.len(), Cotangent::zero());
             own_g.resize(self.nodes.len(), Cotangent::zero());
             let on_base = self.collect_by_body(step, dx, h, moved, [&mut *own_f, &mut *own_g]);
+            let pushed = self.push(at, (dx, h), moved, forces, own_g);
             self.gather_derivatives(step, [own_f, own_g], [&mut *d_f, &mut *d_g]);
             self.loads.add_to_hinges(&g.2, h, &mut d_g.2);
-            on_base
+            (on_base, pushed)
         } else {
-            self.collect_by_body(step, dx, h, moved, [&mut d_f.0, &mut d_g.0])
+            let on_base = self.collect_by_body(step, dx, h, moved, [&mut d_f.0, &mut d_g.0]);
+            (on_base, self.push(at, (dx, h), moved, forces, &mut d_g.0))
         };
         if self.is_free() {
             d_f.1[0] = on_base.into();
             let falling = self.loads.force().map(|force| force * h);
-            d_g.1[0] = falling.unwrap_or(Vec3::zero()).into();
+            d_g.1[0] = (falling.unwrap_or(Vec3::zero()) + pushed).into();
         }
+    }
+
+    /// Adds the impulses $f^-$ of what is no gradient, all at the start of the step; that on the whole is returned.
+    ///
+    /// Each acts on a joint's two bodies at one instant, so that the momentum is kept whatever is solved, (S19).
+    #[inline(always)]
+    fn push<S: Scalar>(
+        &self,
+        at: Scenery<S>,
+        (dx, h): (Vec3<S>, S),
+        moved: &[Moved<S>],
+        work: &mut Vec<Vec3<S>>,
+        d_g: &mut [Cotangent<3, S>],
+    ) -> Vec3<S> {
+        let forces = &self.loads.forces;
+        if forces.are_none() {
+            return Vec3::zero();
+        }
+        let rate = S::one() / h;
+        let twist = |i: usize| {
+            let (e, y) = (turn(&moved[i]), moved[i][4]);
+            // By the vector of Cayley's map.
+            let scale = S::from_f64(2.0) / (S::from_f64(4.0) + e.trace());
+            let v = y + at.r[i].inverse_rotate(dx);
+            [e.skew_vee() * (scale * rate), v * rate]
+        };
+        forces.add(self, at, (twist, h), work, d_g)
     }
 
     /// The derivatives by the attitudes of all bodies; the one by the base is returned.
@@ -228,9 +273,13 @@ impl DiscreteLagrangian for ArticulatedBody {
     ) {
         let step = self.step((at.t, h), g, (&f.0, &f.2), &mut work.expansion);
         self.displace(step, &mut work.moved);
-        let by_body = [&mut work.d_f, &mut work.d_g];
+        let by_body = ByBody {
+            d_f: &mut work.d_f,
+            d_g: &mut work.d_g,
+            forces: &mut work.forces,
+        };
         let shift = (self.base_shift(step, f), h);
-        self.collect(g, step, shift, &mut work.moved, by_body, out);
+        self.collect((at.t, g), step, shift, &mut work.moved, by_body, out);
     }
 
     fn is_defined(&self, t: f64, _: &Configuration, _: &Still<Configuration>) -> bool {
@@ -261,9 +310,12 @@ impl DiscreteLagrangian for ArticulatedBody {
         xi.1[0] = work.total_mass.solve(mu.1[0].vec3()).into();
     }
 
-    /// The displacement $\Delta x$, under a weight too: its impulse is constant.
+    /// The displacement $\Delta x$, under a weight too: its impulse is constant. With drag (31) is not linear.
     fn eliminated(&self) -> Range<usize> {
-        self.translation()
+        match self.loads.forces.act_on_bodies() {
+            true => 0..0,
+            false => self.translation(),
+        }
     }
 
     /// (31) $= p_x$, and the impulse of the weight with it, solved for $\Delta x$.
@@ -287,7 +339,11 @@ impl DiscreteLagrangian for ArticulatedBody {
             shift = work.total_mass.solve(rest);
             (f.1[0], c.1[0]) = (shift.into(), shift.into());
         }
-        let by_body = [&mut work.d_f, &mut work.d_g];
-        self.collect(g, step, (shift, h), &mut work.moved, by_body, out);
+        let by_body = ByBody {
+            d_f: &mut work.d_f,
+            d_g: &mut work.d_g,
+            forces: &mut work.forces,
+        };
+        self.collect((*t, g), step, (shift, h), &mut work.moved, by_body, out);
     }
 }

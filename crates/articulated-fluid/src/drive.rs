@@ -1,23 +1,38 @@
-//! What drives do: torque and work of joints and places that move as told, (S16)–(S17).
+//! What drives do: torque and work of joints and places that move as told, and of loads, (S16)–(S17).
 
 use dvi::{Context, ContinuousSystem, Path, State};
 use lie::{LieGroup, Vec3};
 
 use crate::lagrangian::Evaluation;
+use crate::loads::Scenery;
 use crate::tree::{ArticulatedBody, Configuration};
 
-/// What the drive of a joint, or of the place of the first one, has done along a motion.
+/// What does work that is no gradient's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriveKind {
+    /// What moves the joint of a body, or its place, as told; or the torque, the damper and the servo in it.
+    Joint {
+        /// The body that hangs on it.
+        body: usize,
+    },
+    /// The drag of all bodies.
+    Drag,
+    /// The thrust of all bodies.
+    Thrust,
+}
+
+/// What the drive of a joint, or of the place of the first one, or a load, has done along a motion.
 ///
 /// A drive that turns a body at the rate $a$ against its parent, about its joint, with the torque $\lambda$ does the work $\int \lambda \cdot a\,dt$. In the
 /// reference frame $\lambda = \dot N - T$ with the angular momentum $N$ about the joint of all that moves with the body, and the torque $T$ on that which the
 /// model has without a drive. A place moves the linear momentum likewise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
-    /// The body whose joint it moves.
-    pub body: usize,
+    /// What it is.
+    pub kind: DriveKind,
     /// $\int \lambda \cdot a\,dt$, with that of a place, J.
     pub work: f64,
-    /// $\int \lambda\,dt$, N m s in the reference frame: over a time, it is the mean torque on the body.
+    /// $\int \lambda\,dt$, N m s in the reference frame: over a time, it is the mean torque on the body; zero of drag and thrust.
     pub impulse: Vec3,
 }
 
@@ -43,20 +58,38 @@ impl Port {
     }
 }
 
+impl Port {
+    /// Of what is known by its power alone.
+    fn of_power(power: f64) -> Self {
+        Self {
+            rate: Vec3([power, 0.0, 0.0]),
+            momentum: Vec3::zero(),
+            load: Vec3([-1.0, 0.0, 0.0]),
+        }
+    }
+}
+
 /// By a turn, and by a place.
 type Ports = [Port; 2];
 
 impl ArticulatedBody {
-    /// The drives of all joints that move as told, which have done nothing, in the order of the bodies.
+    /// The drives of all joints that move as told or have a load, which have done nothing, in the order of the bodies; then drag and thrust.
     pub fn drives(&self) -> Vec<Drive> {
-        let driven = |i: &usize| self.is_turned(*i) || *i == 0 && self.is_carried();
+        let forces = &self.loads.forces;
+        let driven = |body: &usize| {
+            let is_loaded = forces.joints.iter().any(|joint| joint.child == *body);
+            is_loaded || self.is_turned(*body) || *body == 0 && self.is_carried()
+        };
         let bodies = (0..self.nodes.len()).filter(driven);
-        let idle = |body| Drive {
-            body,
+        let joints = bodies.map(|body| DriveKind::Joint { body });
+        let drag = (!forces.drags.is_empty()).then_some(DriveKind::Drag);
+        let thrust = (!forces.thrusts.is_empty()).then_some(DriveKind::Thrust);
+        let idle = |kind| Drive {
+            kind,
             work: 0.0,
             impulse: Vec3::zero(),
         };
-        bodies.map(idle).collect()
+        joints.chain(drag).chain(thrust).map(idle).collect()
     }
 
     /// Adds what the [drives](Self::drives) do along a path of this tree's states.
@@ -73,6 +106,9 @@ impl ArticulatedBody {
                 gained - path.integral(|i| at(i).rate.dot(at(i).load))
             };
             drive.work += work(0) + work(1);
+            if !matches!(drive.kind, DriveKind::Joint { .. }) {
+                continue;
+            }
             let at = |i: usize| &ports[i][k][0];
             let load = |d: usize| path.integral(|i| at(i).load.0[d]);
             drive.impulse += at(last).momentum - at(0).momentum - Vec3([0, 1, 2].map(load));
@@ -87,28 +123,50 @@ impl ArticulatedBody {
     ) -> Vec<Ports> {
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
         self.velocity_and_force(Context::new(*t, &[]), g, mu, work, &mut xi, &mut tau);
-        let Evaluation { pose, torques, .. } = work;
+        let Evaluation {
+            pose,
+            torques,
+            elimination,
+            on_whole,
+            ..
+        } = work;
+        let (on_whole, elimination) = (*on_whole, &*elimination);
         let (r, pose) = self.pose(*t, g, pose);
         let (momenta, linear) = self.body_momenta((r, pose), &xi);
         let momenta = self.outer_momenta(pose, momenta);
-        let port = |Drive { body: i, .. }: &Drive| {
-            let turn = match self.is_turned(*i) {
-                false => Port::unused(),
-                true => Port {
-                    rate: r[*i].rotate(pose.rates[*i]),
-                    momentum: r[*i].rotate(momenta[*i]),
-                    load: r[*i].rotate(torques[*i].vec3()),
-                },
-            };
-            let place = match *i == 0 && self.is_carried() {
-                false => Port::unused(),
-                true => Port {
-                    rate: pose.place[1],
-                    momentum: linear,
-                    load: self.loads.force().unwrap_or(Vec3::zero()),
-                },
-            };
-            [turn, place]
+        let at = Scenery { t: *t, g, r };
+        let twist = |i: usize| elimination.twist(i);
+        let forces = &self.loads.forces;
+        let port = |drive: &Drive| match drive.kind {
+            DriveKind::Drag => [Port::of_power(forces.drag_power(twist)), Port::unused()],
+            DriveKind::Thrust => [
+                Port::of_power(forces.thrust_power(*t, twist)),
+                Port::unused(),
+            ],
+            DriveKind::Joint { body: i } => {
+                let turn = match (self.is_turned(i), forces.in_joint(i, at, twist)) {
+                    (true, _) => Port {
+                        rate: r[i].rotate(pose.rates[i]),
+                        momentum: r[i].rotate(momenta[i]),
+                        load: r[i].rotate(torques[i].vec3()),
+                    },
+                    (false, Some(load)) => Port {
+                        rate: r[i].rotate(load.rate),
+                        momentum: Vec3::zero(),
+                        load: -r[i].rotate(load.torque),
+                    },
+                    (false, None) => Port::unused(),
+                };
+                let place = match i == 0 && self.is_carried() {
+                    false => Port::unused(),
+                    true => Port {
+                        rate: pose.place[1],
+                        momentum: linear,
+                        load: on_whole,
+                    },
+                };
+                [turn, place]
+            }
         };
         drives.iter().map(port).collect()
     }

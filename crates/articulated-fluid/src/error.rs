@@ -85,6 +85,14 @@ pub enum ModelError {
         /// The stiffness given, N m.
         stiffness: f64,
     },
+    /// A load that the body or its joint cannot have.
+    #[error(
+        "the load of body {body} does not suit: expected finite numbers >= 0, and in a free joint a law of its kind, of a hinge or of a ball"
+    )]
+    Load {
+        /// Index of the body.
+        body: usize,
+    },
     /// A joint that leaves nothing free has a spring.
     #[error(
         "the joint of body {body} is fixed or prescribed and has a spring; give it no stiffness"

@@ -7,6 +7,7 @@ use core::ops::Add;
 use lie::{Cotangent, Ldl3, SO3, Scalar, Sym3, Vec3};
 
 use crate::joints::{HingeFactors, Link};
+use crate::loads::Twist;
 use crate::pose::Drive;
 use crate::tree::{ArticulatedBody, Identity, Momentum, Velocity};
 
@@ -188,6 +189,12 @@ impl<S: Scalar> Elimination<S> {
         let handed = (turning, u);
         tree.advance(i, handed, drive, &mut self.links[i], &mut self.hinges);
         handed
+    }
+
+    /// $\Omega_i$ and $V_i$, once they are found.
+    #[inline(always)]
+    pub(crate) fn twist(&self, i: usize) -> Twist<S> {
+        [self.links[i].omega, self.links[i].v]
     }
 
     #[inline(always)]

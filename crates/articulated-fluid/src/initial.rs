@@ -38,11 +38,24 @@ impl Scene {
         };
         let mobilities = self.on_joints().map(|(.., mobility)| mobility);
         let model = Mobility::load(mobilities, model)?;
+        let model = model.with_drag(&self.all_of(|body| body.drag.as_ref()))?;
+        let model = model.with_thrust(&self.all_of(|body| body.thrust.as_ref()))?;
         if !self.has_weight() {
             return Ok(model);
         }
         let net_masses: Vec<f64> = self.bodies.iter().map(|body| body.net_mass).collect();
         model.with_gravity(Vec3(self.gravity), &net_masses)
+    }
+
+    /// What some bodies have, with their numbers.
+    fn all_of<'a, T: Clone + 'a>(
+        &'a self,
+        of: impl Fn(&'a SceneBody) -> Option<&'a T>,
+    ) -> Vec<(usize, T)> {
+        let bodies = self.bodies.iter().enumerate();
+        bodies
+            .filter_map(|(i, body)| Some((i, of(body)?.clone())))
+            .collect()
     }
 
     /// Whether gravity acts on a body that is heavier or lighter than what it displaces.

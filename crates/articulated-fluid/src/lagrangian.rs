@@ -4,6 +4,7 @@ use dvi::{Context, ContinuousSystem, Lagrangian, ShapeError, System};
 use lie::{Cotangent, Scalar, Vec3};
 
 use crate::inertia::Elimination;
+use crate::loads::Scenery;
 use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
@@ -19,7 +20,15 @@ impl System for ArticulatedBody {
     }
 
     fn is_driven(&self) -> bool {
-        self.moves_as_told()
+        self.moves_as_told() || self.has_forces()
+    }
+
+    fn terms(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn is_symplectic(&self) -> bool {
+        !self.has_forces()
     }
 
     fn fits(&self, g: &Configuration) -> bool {
@@ -52,9 +61,13 @@ impl Lagrangian for ArticulatedBody {
 #[derive(Clone, Debug)]
 pub struct Evaluation<S = f64> {
     pub(crate) pose: Pose<S>,
-    elimination: Elimination<S>,
+    pub(crate) elimination: Elimination<S>,
     /// On each body about its joint, and on all that hangs on it by no ball.
     pub(crate) torques: Vec<Cotangent<3, S>>,
+    /// Of the loads that are no gradient.
+    forces: Vec<Vec3<S>>,
+    /// The force on the whole, in the reference frame.
+    pub(crate) on_whole: Vec3<S>,
 }
 
 impl<S: Scalar> Default for Evaluation<S> {
@@ -63,6 +76,8 @@ impl<S: Scalar> Default for Evaluation<S> {
             pose: Pose::default(),
             elimination: Elimination::default(),
             torques: Vec::new(),
+            forces: Vec::new(),
+            on_whole: Vec3::zero(),
         }
     }
 }
@@ -83,6 +98,25 @@ impl ArticulatedBody {
         let drive = pose.drive();
         elimination.factorise_and_begin(self, (r, &pose.c), drive, mu);
         elimination.finish(self, &r[0], drive, xi);
+    }
+}
+
+impl ArticulatedBody {
+    /// Adds the torques of what is no gradient; the force on the whole is returned.
+    #[inline(always)]
+    fn force<S: Scalar>(
+        &self,
+        at: Scenery<S>,
+        elimination: &Elimination<S>,
+        work: &mut Vec<Vec3<S>>,
+        torques: &mut [Cotangent<3, S>],
+    ) -> Vec3<S> {
+        let forces = &self.loads.forces;
+        if forces.are_none() {
+            return Vec3::zero();
+        }
+        let twist = |i: usize| elimination.twist(i);
+        forces.add(self, at, (twist, S::one()), work, torques)
     }
 }
 
@@ -108,22 +142,28 @@ impl ContinuousSystem for ArticulatedBody {
             pose,
             elimination,
             torques,
+            forces,
+            on_whole,
         } = work;
         let (r, pose) = self.pose(at.t, g, pose);
         let drive = pose.drive();
         elimination.factorise_and_begin(self, (r, &pose.c), drive, mu);
+        let scenery = Scenery { t: at.t, g, r };
+        *on_whole = self.loads.force().unwrap_or(Vec3::zero());
         if self.has_inner() {
             torques.resize(r.len(), Cotangent::zero());
             elimination.finish_with_forces(self, &r[0], drive, xi, torques);
             self.loads.add_torques(r, S::one(), torques);
+            *on_whole += self.force(scenery, elimination, forces, torques);
             elimination.gather(self, torques, tau);
             self.loads.add_to_hinges(&g.2, S::one(), &mut tau.2);
         } else {
             elimination.finish_with_forces(self, &r[0], drive, xi, &mut tau.0);
             self.loads.add_torques(r, S::one(), &mut tau.0);
+            *on_whole += self.force(scenery, elimination, forces, &mut tau.0);
         }
         if self.is_free() {
-            tau.1[0] = self.loads.force().unwrap_or(Vec3::zero()).into();
+            tau.1[0] = (*on_whole).into();
         }
     }
 }

@@ -110,7 +110,8 @@ impl ArticulatedBody {
             Base::Free => None,
             Base::Held { place, .. } => Some(place.told()),
         };
-        let all = self.joints.motions.iter().map(Motion::told).chain(place);
+        let motions = self.joints.motions.iter().map(Motion::told);
+        let all = motions.chain(place).chain(self.loads.forces.told());
         all.fold([f64::NEG_INFINITY, f64::INFINITY], |[a, b], [from, to]| {
             [a.max(from), b.min(to)]
         })
@@ -127,7 +128,8 @@ impl ArticulatedBody {
             Base::Free => true,
             Base::Held { place, .. } => place.derivative(t, 0).iter().all(|x| x.is_finite()),
         };
-        known && placed
+        let told = self.loads.forces.are_known(t);
+        known && placed && told
     }
 
     fn read_motions<S: Scalar>(&self, t: S, pose: &mut Pose<S>) {

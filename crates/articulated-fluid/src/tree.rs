@@ -199,14 +199,24 @@ impl ArticulatedBody {
         !self.has_inner() && self.is_free()
     }
 
-    /// Whether the motion keeps the energy: nothing moves as told.
+    /// Whether the motion keeps the energy: nothing moves as told, and nothing acts but gravity and springs.
     pub fn keeps_energy(&self) -> bool {
-        !self.moves_as_told()
+        !(self.moves_as_told() || self.has_forces())
     }
 
-    /// Whether the motion keeps linear and angular momentum, but for the impulse of the weight: no body hangs on the world.
+    /// Whether the motion keeps linear and angular momentum, but for the impulse of the weight: no body hangs on the world, and no drag or thrust acts.
     pub fn keeps_momentum(&self) -> bool {
-        self.is_free()
+        self.is_free() && !self.loads.forces.act_on_bodies()
+    }
+
+    /// Whether something acts that is no gradient.
+    pub(crate) fn has_forces(&self) -> bool {
+        !self.loads.forces.are_none()
+    }
+
+    /// Whether a [view](crate::View) of it may be better.
+    pub(crate) fn has_views(&self) -> bool {
+        self.is_simple() && !self.has_forces()
     }
 
     /// Whether a joint or a place moves as told.

@@ -1,6 +1,6 @@
 //! The account of what drives do, from step to step.
 
-use articulated_fluid::{ArticulatedBody, Configuration, Drive, Evaluation};
+use articulated_fluid::{ArticulatedBody, Configuration, Drive, DriveKind, Evaluation};
 use dvi::{State, StepError};
 use serde::Serialize;
 
@@ -9,12 +9,12 @@ use crate::method::BoxedIntegrator;
 use crate::run::Run;
 use crate::schedule::Due;
 
-/// What the drive of a joint has done in a run.
+/// What a drive or a load has done in a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DriveReport {
-    /// The joint's name.
-    pub joint: String,
+    /// The joint's name; `drag` or `thrust` of all bodies.
+    pub name: String,
     /// From the start on.
     pub work_joules: f64,
     /// The largest power, of means over a step.
@@ -97,21 +97,26 @@ impl Drives {
     }
 
     /// What each has done, with the names of their joints.
-    pub(crate) fn report(&self, names: &[String]) -> Vec<DriveReport> {
-        let named = self.now.iter().zip(&self.largest).zip(names);
-        let report = |((drive, largest), joint): ((&Drive, &[f64; 2]), &String)| DriveReport {
-            joint: joint.clone(),
+    pub(crate) fn report(&self, joints: &[String]) -> Vec<DriveReport> {
+        let mut joints = joints.iter();
+        let report = |(drive, largest): (&Drive, &[f64; 2])| DriveReport {
+            name: match drive.kind {
+                DriveKind::Joint { .. } => joints.next().cloned().unwrap_or_default(),
+                DriveKind::Drag => "drag".to_owned(),
+                DriveKind::Thrust => "thrust".to_owned(),
+            },
             work_joules: drive.work,
             power_max_watts: largest[0],
             torque_max_newton_metres: largest[1],
         };
-        named.map(report).collect()
+        self.now.iter().zip(&self.largest).map(report).collect()
     }
 }
 
 /// The work of a drive, and the means over the time between.
 fn mean([from, to]: [&Drive; 2], time: f64) -> DriveSample {
     DriveSample {
+        kind: to.kind,
         work: to.work,
         power: (to.work - from.work) / time,
         torque: (to.impulse - from.impulse) * (1.0 / time),

@@ -1,7 +1,7 @@
 //! What is seen of a run at one time.
 
 use articulated_fluid::{
-    ArticulatedBody, Configuration, Conserved, Evaluation, Kinematics, ModelError,
+    ArticulatedBody, Configuration, Conserved, Drive, DriveKind, Evaluation, Kinematics, ModelError,
 };
 use dvi::State;
 use lie::{LieGroup, Vec3};
@@ -37,7 +37,7 @@ impl Frame {
             velocity,
             bodies,
             sample: Sample::new(model, &state, kept),
-            drives: vec![DriveSample::IDLE; model.drives().len()],
+            drives: model.drives().iter().map(DriveSample::idle).collect(),
             state,
         })
     }
@@ -74,9 +74,11 @@ impl Frame {
     }
 }
 
-/// What the drive of a joint does.
+/// What a drive or a load does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveSample {
+    /// What it is.
+    pub kind: DriveKind,
     /// Since the start, J.
     pub work: f64,
     /// The mean power since the frame before, W.
@@ -87,11 +89,14 @@ pub struct DriveSample {
 
 impl DriveSample {
     /// Of a drive that has done nothing.
-    const IDLE: Self = Self {
-        work: 0.0,
-        power: 0.0,
-        torque: Vec3([0.0; 3]),
-    };
+    fn idle(drive: &Drive) -> Self {
+        Self {
+            kind: drive.kind,
+            work: 0.0,
+            power: 0.0,
+            torque: Vec3::zero(),
+        }
+    }
 }
 
 /// What the motion keeps, at one time.

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use articulated_fluid::Scene;
+use articulated_fluid::{DriveKind, Scene};
 use lie::{SO3, Vec3};
 
 use crate::frame::{DriveSample, Frame};
@@ -38,13 +38,16 @@ enum Read {
     Hinge(fn(&Seen, usize, &mut [f64])),
     /// Of the drive with this number, likewise.
     Drive(fn(&DriveSample, &mut [f64])),
+    /// The work of all loads of a kind, where there are some.
+    Work(DriveKind),
 }
 
-/// The bodies of a scene, the free hinges and the joints with drives, by their names.
+/// The bodies of a scene, the free hinges and the joints with drives, by their names, and which loads there are.
 struct Names {
     bodies: Vec<String>,
     hinges: Vec<String>,
     drives: Vec<String>,
+    loads: Vec<DriveKind>,
 }
 
 type Labels = &'static [&'static str];
@@ -104,11 +107,13 @@ pub const COLUMNS: &[Column] = &[
     hinge(&["angle", "rate"], "angle of a free hinge, not wrapped, rad, and its rate, rad/s", |seen, k, to| {
         to.copy_from_slice(&seen.frame.hinge(k).unwrap_or([f64::NAN; 2]));
     }),
-    drive(&["work"], "work of what moves a joint as told, since the start, J", |drive, to| to.fill(drive.work)),
+    drive(&["work"], "work of what moves a joint as told, and of its torque, damper and servo, since the start, J", |drive, to| to.fill(drive.work)),
     extra(drive(&["power"], "its mean power since the row before, W", |drive, to| to.fill(drive.power))),
     extra(drive(&["tx", "ty", "tz"], "its mean torque on the child since the row before, in the reference frame, N m", |drive, to| {
         to.copy_from_slice(&drive.torque.0);
     })),
+    column(&["drag_work"], "work of all drag since the start, J, where there is some", Read::Work(DriveKind::Drag)),
+    column(&["thrust_work"], "work of all thrust since the start, J, where there is some", Read::Work(DriveKind::Thrust)),
     whole(&["energy"], "of bodies and fluid, kinetic and potential, J", |seen, to| to.fill(seen.frame.sample.energy)),
     whole(&["px", "py", "pz"], "linear momentum from the velocities, in the reference frame, kg m/s", |seen, to| {
         to.copy_from_slice(&seen.frame.sample.linear.0);
@@ -135,7 +140,7 @@ impl Column {
     /// The names in short, as `x,y,z` and `NAME.qw,.qx,.qy,.qz`.
     pub fn label(&self) -> String {
         match self.read {
-            Read::Whole(_) => self.names.join(","),
+            Read::Whole(_) | Read::Work(_) => self.names.join(","),
             Read::Body(_) => format!("NAME.{}", self.names.join(",.")),
             Read::Hinge(_) | Read::Drive(_) => format!("JOINT.{}", self.names.join(",.")),
         }
@@ -148,13 +153,14 @@ impl Names {
             bodies: scene.bodies.iter().map(|body| body.name.clone()).collect(),
             hinges: scene.free_hinges().map(str::to_owned).collect(),
             drives: scene.driven_joints().map(str::to_owned).collect(),
+            loads: scene.loads_on_bodies().collect(),
         }
     }
 
     /// What columns are of.
     fn of_column(&self, column: &Column) -> &[String] {
         match column.read {
-            Read::Whole(_) => &[],
+            Read::Whole(_) | Read::Work(_) => &[],
             Read::Body(_) => &self.bodies,
             Read::Hinge(_) => &self.hinges,
             Read::Drive(_) => &self.drives,
@@ -167,11 +173,14 @@ fn columns(
     chosen: &[&'static Column],
     names: &Names,
 ) -> impl Iterator<Item = (&'static Column, usize)> {
+    // Both of several columns of bodies side by side, but each load of its own.
     let kind = |column: &Column| core::mem::discriminant(&column.read);
-    let groups = chosen.chunk_by(move |a, b| kind(a) == kind(b));
+    let is_load = |column: &Column| matches!(column.read, Read::Work(_));
+    let groups = chosen.chunk_by(move |a, b| kind(a) == kind(b) && !is_load(a));
     groups.flat_map(move |group| {
         let times = match group[0].read {
             Read::Whole(_) => 1,
+            Read::Work(kind) => usize::from(names.loads.contains(&kind)),
             _ => names.of_column(group[0]).len(),
         };
         (0..times).flat_map(move |i| group.iter().map(move |column| (*column, i)))
@@ -245,6 +254,10 @@ impl<W: Write> Table<W> {
             match column.read {
                 Read::Whole(read) => read(&seen, to),
                 Read::Body(read) | Read::Hinge(read) => read(&seen, i, to),
+                Read::Work(kind) => {
+                    let load = frame.drives.iter().find(|drive| drive.kind == kind);
+                    to.fill(load.map_or(f64::NAN, |load| load.work));
+                }
                 Read::Drive(read) => match frame.drives.get(i) {
                     Some(drive) => read(drive, to),
                     None => to.fill(f64::NAN),

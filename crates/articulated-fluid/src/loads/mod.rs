@@ -1,15 +1,26 @@
-//! What acts on the bodies: each load a file, of what potential it has and what torques and force it gives.
+//! What acts on the bodies: each load a file, of what potential it has, or what torques and force it gives.
 
+mod drag;
+mod forces;
 mod gravity;
 mod hinge_spring;
 mod on_tree;
+mod servo;
 mod spring;
+mod thrust;
+mod torque;
 
 use lie::{Cotangent, Power, Rn, SO3, Scalar, Vec3};
 
+pub use drag::Drag;
+pub use forces::JointLoad;
+pub(crate) use forces::{Forces, Scenery, Twist};
 pub(crate) use gravity::{Weight, moments};
 pub(crate) use hinge_spring::HingeSprings;
+pub use servo::Servo;
 pub(crate) use spring::{Spring, Springs};
+pub use thrust::Thrust;
+pub use torque::Torque;
 
 /// The loads of a tree of bodies.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +28,7 @@ pub(crate) struct Loads {
     pub(crate) weight: Option<Weight>,
     pub(crate) springs: Option<Springs>,
     pub(crate) hinge_springs: Option<HingeSprings>,
+    pub(crate) forces: Forces,
 }
 
 impl Loads {
@@ -70,8 +82,9 @@ impl Loads {
         self.weight.as_ref().map(Weight::force)
     }
 
-    /// Whether nothing depends on where the whole is.
+    /// Whether nothing acts on the whole.
     pub(crate) fn let_float(&self) -> bool {
-        self.weight.as_ref().is_none_or(Weight::is_neutral)
+        let is_neutral = self.weight.as_ref().is_none_or(Weight::is_neutral);
+        is_neutral && !self.forces.act_on_bodies()
     }
 }

@@ -2,9 +2,11 @@
 
 use lie::Vec3;
 
+use super::forces::{JointLoad, LoadedJoint};
 use super::gravity::Weight;
 use super::hinge_spring::{HingeSpring, HingeSprings};
 use super::spring::{Spring, Springs};
+use super::{Drag, Thrust};
 use crate::error::ModelError;
 use crate::joints::Role;
 use crate::tree::ArticulatedBody;
@@ -98,6 +100,68 @@ impl ArticulatedBody {
         }
         self.loads.springs = Springs::new(of_balls);
         self.loads.hinge_springs = HingeSprings::new(of_hinges);
+        Ok(self)
+    }
+
+    /// The same bodies with these loads in their joints, in the order of [`with_stiffness`](Self::with_stiffness).
+    ///
+    /// # Errors
+    /// [`ModelError::Stiffnesses`] where there is not one for each joint; [`ModelError::Load`] where one is in a joint that leaves nothing free,
+    /// is of another kind of joint, or has a number that is negative or not finite.
+    pub fn with_joint_loads(mut self, loads: &[JointLoad]) -> Result<Self, ModelError> {
+        let first = usize::from(self.is_free());
+        let (expected, found) = (self.nodes.len() - first, loads.len());
+        if expected != found {
+            return Err(ModelError::Stiffnesses { expected, found });
+        }
+        let acting = (first..).zip(loads).filter(|(_, load)| load.acts());
+        let joints = acting.map(|(child, load)| {
+            let hinge = match self.nodes[child].role {
+                Role::Ball(_) => None,
+                Role::Hinge(k) => Some((k, self.joints.hinges[k].axis)),
+                _ => return Err(ModelError::Load { body: child }),
+            };
+            let load = load.clone();
+            match load.suits(hinge.is_some()) {
+                true => Ok(LoadedJoint {
+                    parent: (child > 0).then(|| self.nodes[child].parent),
+                    child,
+                    hinge,
+                    load,
+                }),
+                false => Err(ModelError::Load { body: child }),
+            }
+        });
+        self.loads.forces.joints = joints.collect::<Result<_, _>>()?;
+        Ok(self)
+    }
+
+    /// The same bodies with drag on some of them.
+    ///
+    /// # Errors
+    /// [`ModelError::Load`] where there is no such body, or a number is negative or not finite.
+    pub fn with_drag(mut self, drags: &[(usize, Drag)]) -> Result<Self, ModelError> {
+        for (body, drag) in drags {
+            if *body >= self.nodes.len() || !drag.is_sound() {
+                return Err(ModelError::Load { body: *body });
+            }
+        }
+        let acting = drags.iter().filter(|(_, drag)| drag.acts());
+        self.loads.forces.drags = acting.copied().collect();
+        Ok(self)
+    }
+
+    /// The same bodies with thrust on some of them.
+    ///
+    /// # Errors
+    /// [`ModelError::Load`] where there is no such body, or its point is not finite.
+    pub fn with_thrust(mut self, thrusts: &[(usize, Thrust)]) -> Result<Self, ModelError> {
+        for (body, thrust) in thrusts {
+            if *body >= self.nodes.len() || !thrust.at.is_finite() {
+                return Err(ModelError::Load { body: *body });
+            }
+        }
+        self.loads.forces.thrusts = thrusts.to_vec();
         Ok(self)
     }
 }

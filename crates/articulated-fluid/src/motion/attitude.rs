@@ -94,6 +94,14 @@ impl Motion {
         }
     }
 
+    /// The angle of a hinge, rad, and its rate; of the others, not a number.
+    pub(crate) fn angle<S: Scalar>(&self, t: S) -> [S; 2] {
+        match self {
+            Self::Hinge { angle, .. } => law::at(angle.as_ref(), t).map(|[x]| x),
+            _ => [S::from_f64(f64::NAN); 2],
+        }
+    }
+
     /// $Q(t)$ and $a(t)$, rad/s in the body's frame.
     pub fn at<S: Scalar>(&self, t: S) -> (SO3<S>, Vec3<S>) {
         match self {

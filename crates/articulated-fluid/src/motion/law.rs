@@ -20,11 +20,14 @@ pub trait Law<const N: usize>: Debug + Send + Sync {
     }
 }
 
+/// The values of a law.
+#[inline(always)]
+pub(crate) fn value<const N: usize, S: Scalar>(law: &dyn Law<N>, t: S) -> [S; N] {
+    t.smooth(&|t, k| law.derivative(t, k))
+}
+
 /// The values of a law, and their rates.
 #[inline(always)]
 pub(crate) fn at<const N: usize, S: Scalar>(law: &dyn Law<N>, t: S) -> [[S; N]; 2] {
-    [
-        t.smooth(&|t, k| law.derivative(t, k)),
-        t.smooth(&|t, k| law.derivative(t, k + 1)),
-    ]
+    [value(law, t), t.smooth(&|t, k| law.derivative(t, k + 1))]
 }

@@ -33,7 +33,7 @@ pub(super) fn normal(
     model: &ArticulatedBody,
     state: &State<Configuration>,
 ) -> Result<Vec3, NotPlanar> {
-    if !model.is_simple() {
+    if !model.has_views() {
         return Err(NotPlanar {
             what: NotPlanarCause::Joint,
             ..not_a_state()

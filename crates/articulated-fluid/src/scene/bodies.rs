@@ -6,6 +6,7 @@ use super::description::SceneBody;
 use super::entry::{Table, Value};
 use super::error::SceneError;
 use super::forms::{self, Surroundings};
+use super::loads;
 
 /// The parent of a first body that is not free.
 pub(super) const WORLD: &str = "world";
@@ -38,6 +39,8 @@ pub(super) fn check<'a>(
         let body = forms::check(&table, name.text, around)?;
         bodies.push(SceneBody {
             attitude: table.read("attitude", body.attitude, Value::attitude)?,
+            drag: loads::drag(&table)?,
+            thrust: loads::thrust(&table)?,
             ..body
         });
         names.index.insert(name.text, names.listed.len());

@@ -4,7 +4,9 @@ use lie::Mat3;
 
 use super::mobility::Mobility;
 use super::note::Note;
+use crate::drive::DriveKind;
 use crate::ellipsoid::Ellipsoid;
+use crate::loads::{Drag, Thrust};
 use crate::motion::{Law, Sinusoid};
 
 /// A difference of mass and displaced mass that is the rounding of density times volume and of the numbers read, relative.
@@ -68,6 +70,10 @@ pub struct SceneBody {
     pub total_inertia: [[f64; 3]; 3],
     /// Mass of the body less that of the displaced fluid, kg; 0 where it is not known, as only without gravity.
     pub net_mass: f64,
+    /// What brakes it.
+    pub drag: Option<Drag>,
+    /// What drives it.
+    pub thrust: Option<Thrust>,
     /// Initial attitude, body to reference frame: a quaternion $w, x, y, z$ of length 1.
     pub attitude: [f64; 4],
     /// Initial angular velocity in the body frame, rad/s.
@@ -88,6 +94,8 @@ impl SceneBody {
             total_mass: Mat3::diagonal(added.map(|added| mass + added)).0,
             total_inertia: Mat3::diagonal([0, 1, 2].map(|i| dry[i] + wet[i])).0,
             net_mass: net_mass(mass, shape.neutral_mass(density)),
+            drag: None,
+            thrust: None,
             attitude: [1.0, 0.0, 0.0, 0.0],
             angular_velocity: [0.0; 3],
         }
@@ -111,6 +119,8 @@ impl SceneBody {
             total_mass,
             total_inertia,
             net_mass,
+            drag: None,
+            thrust: None,
             attitude: [1.0, 0.0, 0.0, 0.0],
             angular_velocity: [0.0; 3],
         }
@@ -197,13 +207,26 @@ impl Scene {
         hinges.map(|(_, name, _)| name)
     }
 
-    /// The names of the joints that move as told, or whose place does, in the order of the [drives](crate::ArticulatedBody::drives).
+    /// The names of the joints that move as told, or whose place does, or that have a load, in the order of the
+    /// [drives](crate::ArticulatedBody::drives).
     pub fn driven_joints(&self) -> impl Iterator<Item = &str> {
         let mount = self.mount.as_ref();
         let carried = mount.is_some_and(|mount| !mount.place.is_constant());
         let driven =
             move |(i, _, on): &(usize, &str, &Mobility)| on.kind.is_driven() || *i == 0 && carried;
         self.on_joints().filter(driven).map(|(_, name, _)| name)
+    }
+
+    /// What acts on bodies beside weight: drag, thrust.
+    pub fn loads_on_bodies(&self) -> impl Iterator<Item = DriveKind> {
+        let acts = |drag: &Drag| drag.acts();
+        let drag = self
+            .bodies
+            .iter()
+            .any(|body| body.drag.as_ref().is_some_and(acts));
+        let thrust = self.bodies.iter().any(|body| body.thrust.is_some());
+        let drag = drag.then_some(DriveKind::Drag);
+        drag.into_iter().chain(thrust.then_some(DriveKind::Thrust))
     }
 
     /// The bodies on joints in their order, with the joint's name and what it leaves free.

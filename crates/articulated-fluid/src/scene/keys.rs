@@ -1,5 +1,7 @@
 //! The keys of a scene file: the one place that documents them.
 
+use std::borrow::Cow;
+
 /// The documentation of one key of a scene file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 #[non_exhaustive]
@@ -29,6 +31,10 @@ const fn key(
 }
 
 const REQUIRED: &str = "required";
+/// A value of a time law.
+const LAW: &str = "a finite number for a hinge or an array of 3 for a ball, in rad; of a torque in N m, of a thrust in N";
+/// Tables with the keys of `joint.motion`.
+const LAWS: [&str; 3] = ["joint.torque", "joint.servo.target", "body.thrust.force"];
 
 /// Every key that a scene file may have, in the order of the schema.
 pub const KEYS: &[Key] = &[
@@ -143,6 +149,60 @@ pub const KEYS: &[Key] = &[
         "none",
         "semi-axes of the body's ellipsoid, with inertia or total_mass: \
          for warnings of overlap and the default of volume",
+    ),
+    key(
+        "body.drag",
+        "a table { linear, quadratic, angular_linear, angular_quadratic, smooth_below }",
+        "none",
+        "force and moment against the motion along and about the body's axes, at its mass centre",
+    ),
+    key(
+        "body.drag.linear",
+        "an array of 3 finite numbers >= 0, in N s/m",
+        "zero",
+        "force for the velocity",
+    ),
+    key(
+        "body.drag.quadratic",
+        "an array of 3 finite numbers >= 0, in N s^2/m^2",
+        "zero",
+        "force for the velocity times its size, axis by axis",
+    ),
+    key(
+        "body.drag.angular_linear",
+        "an array of 3 finite numbers >= 0, in N m s",
+        "zero",
+        "moment for the angular velocity",
+    ),
+    key(
+        "body.drag.angular_quadratic",
+        "an array of 3 finite numbers >= 0, in N m s^2",
+        "zero",
+        "moment for the angular velocity times its size, axis by axis",
+    ),
+    key(
+        "body.drag.smooth_below",
+        "a finite number >= 0, in m/s",
+        "0",
+        "speed below which quadratic drag is rounded off: methods of high order ask for it where a velocity changes sign",
+    ),
+    key(
+        "body.thrust",
+        "a table { force, at }",
+        "none",
+        "a force that goes with the body",
+    ),
+    key(
+        "body.thrust.force",
+        "an array of 3 finite numbers, in N, or a table with the keys of joint.motion",
+        REQUIRED,
+        "the force, in the body's frame",
+    ),
+    key(
+        "body.thrust.at",
+        "an array of 3 finite numbers, in m",
+        "the mass centre",
+        "where it acts, from the mass centre in the body's frame",
     ),
     key(
         "body.attitude",
@@ -277,7 +337,7 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "joint.motion.amplitude",
-        "a finite number for a hinge or an array of 3 for a ball, in rad",
+        LAW,
         "0",
         "amplitude of the sinusoid",
     ),
@@ -287,18 +347,8 @@ pub const KEYS: &[Key] = &[
         "required with an amplitude",
         "frequency of the sinusoid",
     ),
-    key(
-        "joint.motion.phase",
-        "a finite number for a hinge or an array of 3 for a ball, in rad",
-        "0",
-        "phase of the sinusoid",
-    ),
-    key(
-        "joint.motion.bias",
-        "a finite number for a hinge or an array of 3 for a ball, in rad",
-        "0",
-        "what the sinusoid is about",
-    ),
+    key("joint.motion.phase", LAW, "0", "phase of the sinusoid"),
+    key("joint.motion.bias", LAW, "0", "what the sinusoid is about"),
     key(
         "joint.motion.ramp",
         "a finite number >= 0, in s",
@@ -330,6 +380,42 @@ pub const KEYS: &[Key] = &[
         "true or false",
         "false: the motion is defined up to the last row only",
         "whether the table is repeated; its last row then equals the first",
+    ),
+    key(
+        "joint.damping",
+        "a finite number >= 0, in N m s/rad",
+        "0",
+        "of a damper: the torque on the child against its rate on the parent",
+    ),
+    key(
+        "joint.torque",
+        "a table with the keys of joint.motion, in N m",
+        "none",
+        "torque on the child, in its frame, of a hinge about the axis; the parent has the opposite one",
+    ),
+    key(
+        "joint.servo",
+        "a table { kp, kd, target }",
+        "none",
+        "a motor that pulls the joint to its target; to follow a motion exactly, take joint.motion",
+    ),
+    key(
+        "joint.servo.kp",
+        "a finite number >= 0, in N m/rad",
+        REQUIRED,
+        "torque for the angle that is missing, of a ball for its sine",
+    ),
+    key(
+        "joint.servo.kd",
+        "a finite number >= 0, in N m s/rad",
+        "0",
+        "torque against the rate beside the target's",
+    ),
+    key(
+        "joint.servo.target",
+        "a table with the keys of joint.motion",
+        REQUIRED,
+        "the angle of a hinge, or the rotation vector of a ball, to follow",
     ),
     key(
         "joint.place",
@@ -447,16 +533,26 @@ pub fn reference() -> String {
     KEYS.iter().map(entry).collect()
 }
 
+/// The path under which the key at `path` is documented: all time laws have the keys of one.
+fn documented(path: &str) -> Cow<'_, str> {
+    let law = LAWS.iter().find_map(|law| path.strip_prefix(law));
+    match law {
+        Some(key) if key.is_empty() || key.starts_with('.') => format!("joint.motion{key}").into(),
+        _ => path.into(),
+    }
+}
+
 /// What is expected as the value of the key at `path`.
 pub(super) fn expected(path: &str) -> Option<&'static str> {
-    KEYS.iter()
-        .find(|key| key.path == path)
+    let own = KEYS.iter().find(|key| key.path == path);
+    own.or_else(|| KEYS.iter().find(|key| key.path == documented(path)))
         .map(|key| key.value)
 }
 
 /// The names of the keys in the table at `path`.
 pub(super) fn below(path: &str) -> impl Iterator<Item = &'static str> {
-    let name = move |key: &'static Key| match (path, key.path.rsplit_once('.')) {
+    let path = documented(path).into_owned();
+    let name = move |key: &'static Key| match (&path[..], key.path.rsplit_once('.')) {
         ("", None) => Some(key.path),
         (_, Some((table, name))) if table == path => Some(name),
         _ => None,

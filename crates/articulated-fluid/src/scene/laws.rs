@@ -66,16 +66,23 @@ where
     if let Some(gait) = gait {
         return Ok(Arc::new(gait.law::<N>()?));
     }
-    let motion = table.require("motion")?.table()?;
-    match motion.get("file") {
-        Some(file) => measured(&motion, &file),
+    law(&table.require("motion")?.table()?)
+}
+
+/// A sinusoid, or a spline through the rows of a table.
+pub(super) fn law<const N: usize>(table: &Table) -> Result<Shared<N>, SceneError>
+where
+    Sinusoid<N>: Law<N>,
+{
+    match table.get("file") {
+        Some(file) => measured(table, &file),
         None => {
             for key in ["columns", "repeat"] {
-                if let Some(value) = motion.get(key) {
+                if let Some(value) = table.get(key) {
                     return Err(value.fail("given without file; expected both, or neither"));
                 }
             }
-            Ok(Arc::new(sinusoid(&motion)?))
+            Ok(Arc::new(sinusoid(table)?))
         }
     }
 }

@@ -5,8 +5,10 @@ use lie::{SO3, Vec3};
 use super::entry::{Table, Value};
 use super::error::SceneError;
 use super::laws::{self, Gait};
+use super::loads;
 use crate::error::ModelError;
 use crate::joints::JointKind;
+use crate::loads::JointLoad;
 use crate::motion::{Motion, Sinusoid};
 use crate::tree::ArticulatedBody;
 
@@ -21,6 +23,8 @@ pub struct Mobility {
     pub rate: f64,
     /// Stiffness $k \ge 0$; 0 for a free joint. Of a ball against turns from where both bodies' frames are aligned, N m; of a hinge N m/rad.
     pub stiffness: f64,
+    /// What acts in it beside.
+    pub load: JointLoad,
 }
 
 impl Mobility {
@@ -34,13 +38,25 @@ impl Mobility {
         all: impl Iterator<Item = &'a Self>,
         model: ArticulatedBody,
     ) -> Result<ArticulatedBody, ModelError> {
-        let stiffnesses: Vec<f64> = all.map(|mobility| mobility.stiffness).collect();
-        model.with_stiffness(&stiffnesses)
+        let of = |mobility: &Self| (mobility.stiffness, mobility.load.clone());
+        let (stiffnesses, loads): (Vec<f64>, Vec<JointLoad>) = all.map(of).unzip();
+        let model = model.with_stiffness(&stiffnesses)?;
+        model.with_joint_loads(&loads)
     }
 }
 
 /// Keys of a joint that only some kinds have.
-const OF_KINDS: [&str; 6] = ["axis", "rest", "angle", "rate", "rest_angle", "stiffness"];
+const OF_KINDS: [&str; 9] = [
+    "axis",
+    "rest",
+    "angle",
+    "rate",
+    "rest_angle",
+    "stiffness",
+    "damping",
+    "torque",
+    "servo",
+];
 
 /// Reads the joint in `table`, which may have the motion of a gait.
 pub(super) fn read(table: &Table, gait: Option<&Gait>) -> Result<Mobility, SceneError> {
@@ -54,8 +70,8 @@ pub(super) fn read(table: &Table, gait: Option<&Gait>) -> Result<Mobility, Scene
     let kind = table.get("type");
     let word = kind.as_ref().map_or(Ok("ball"), Value::text)?;
     let allowed: &[&str] = match (word, driven) {
-        ("ball", false) => &["stiffness"],
-        ("hinge", false) => &["axis", "rest", "angle", "rate", "rest_angle", "stiffness"],
+        ("ball", false) => &["stiffness", "damping", "torque", "servo"],
+        ("hinge", false) => &OF_KINDS,
         ("hinge", true) => &["axis", "rest"],
         ("ball", true) | ("fixed", false) => &["rest"],
         ("fixed", true) => {
@@ -78,10 +94,11 @@ pub(super) fn read(table: &Table, gait: Option<&Gait>) -> Result<Mobility, Scene
         _ => JointKind::Ball,
     };
     Ok(Mobility {
-        kind,
         angle: table.read("angle", 0.0, Value::finite)?,
         rate: table.read("rate", 0.0, Value::finite)?,
         stiffness: table.read("stiffness", 0.0, Value::not_negative)?,
+        load: loads::in_joint(table, &kind)?,
+        kind,
     })
 }
 

@@ -26,6 +26,7 @@ mod forms;
 mod joints;
 mod keys;
 mod laws;
+mod loads;
 mod matrices;
 mod mobility;
 mod note;

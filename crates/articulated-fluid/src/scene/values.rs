@@ -26,6 +26,15 @@ impl Value<'_> {
         finite(&self.numbers()?).map_err(|what| self.wrong(&what))
     }
 
+    /// An array of 3 finite numbers >= 0.
+    pub fn not_negative_array(&self) -> Result<[f64; 3], SceneError> {
+        let numbers: [f64; 3] = self.array()?;
+        match numbers.iter().find(|x| **x < 0.0) {
+            None => Ok(numbers),
+            Some(x) => Err(self.wrong(&format!("has {x:?}"))),
+        }
+    }
+
     /// The error that a `word` is none of those expected.
     pub fn unknown_word(&self, word: &str) -> SceneError {
         self.wrong(&format!("is {:?}", quote(word)))

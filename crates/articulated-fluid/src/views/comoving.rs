@@ -53,7 +53,7 @@ impl Comoving {
     /// # Ok::<(), articulated_fluid::ModelError>(())
     /// ```
     pub fn new(model: &ArticulatedBody) -> Option<Self> {
-        if !model.is_simple() {
+        if !model.has_views() {
             return None;
         }
         let number = |m: &Mat3| (*m == Mat3::diagonal([m[(0, 0)]; 3])).then_some(m[(0, 0)]);

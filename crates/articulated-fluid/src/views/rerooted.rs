@@ -42,7 +42,7 @@ impl Rerooted {
         let mass = |i: &usize| model.masses[*i].trace();
         let bodies = 1..model.nodes.len();
         let heaviest = bodies.fold(0, |best, i| if mass(&i) > mass(&best) { i } else { best });
-        (heaviest != 0 && model.is_simple())
+        (heaviest != 0 && model.has_views())
             .then(|| Self::on(model, heaviest))
             .flatten()
     }

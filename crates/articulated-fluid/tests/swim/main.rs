@@ -3,6 +3,7 @@
 #[path = "../model/by_duals.rs"]
 mod by_duals;
 mod laws;
+mod loads;
 mod planar;
 mod strokes;
 mod trees;

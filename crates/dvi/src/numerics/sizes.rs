@@ -12,7 +12,7 @@ const DIGITS: u32 = 8;
 const SETTLED: f64 = 0.1;
 /// Roundings of an evaluation may add up to so many times what shaking its arguments makes of it …
 pub(crate) const NOISE: f64 = 16.0;
-/// … and once more for so many blocks: along a chain of hinges the attitudes are products, and the moments are sums, over all before.
+/// … and once more for so many terms: along a chain of hinges the attitudes are products, and the moments are sums, over all before.
 const CHAIN: f64 = 32.0;
 
 /// The kinds of unit of a group's coordinates, and how large numbers of each kind are.
@@ -139,6 +139,8 @@ pub(crate) struct Sizes {
     numbers: Vec<f64>,
     /// The largest scale of all, in one unit.
     scale: f64,
+    /// How many things an evaluation adds up.
+    terms: usize,
 }
 
 /// Coordinates of one unit that belong together.
@@ -184,7 +186,13 @@ impl Sizes {
             blocks: parts.map(block).collect(),
             numbers: vec![0.0; g.zero_dual().dim()],
             scale: 0.0,
+            terms: 0,
         }
+    }
+
+    /// For evaluations that add up so many things, where these are more than the blocks.
+    pub(crate) fn with_terms(self, terms: usize) -> Self {
+        Self { terms, ..self }
     }
 
     /// Takes the largest of these momenta for the scale of each block, and forgets the noise.
@@ -284,7 +292,8 @@ impl Sizes {
         (correction, whole): (&V, &V),
         tolerance: f64,
     ) -> bool {
-        let noise = NOISE * (1.0 + self.blocks.len() as f64 / CHAIN);
+        let terms = self.blocks.len().max(self.terms);
+        let noise = NOISE * (1.0 + terms as f64 / CHAIN);
         let settled = |block: &Block| {
             block.size <= larger(tolerance * block.scale, noise * block.noise) || {
                 let [part, all] = [correction, whole].map(|x| {

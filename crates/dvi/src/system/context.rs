@@ -42,6 +42,11 @@ pub trait System {
         false
     }
 
+    /// How many things an evaluation adds up, where these are more than the unknowns: they round more than shaken arguments show.
+    fn terms(&self) -> usize {
+        0
+    }
+
     /// Whether the motion is that of a Lagrangian, so that the flow is symplectic; not so with a [force](crate::Forced).
     fn is_symplectic(&self) -> bool {
         true
@@ -78,6 +83,9 @@ impl<A: Adapter> System for A {
     }
     fn is_driven(&self) -> bool {
         self.inner().is_driven()
+    }
+    fn terms(&self) -> usize {
+        self.inner().terms()
     }
     fn is_symplectic(&self) -> bool {
         A::STAYS_SYMPLECTIC && self.inner().is_symplectic()

@@ -162,7 +162,8 @@ impl<L: DiscreteLagrangian> Work<L> {
                 g,
                 matrix.solved_exactly(lagrangian, c.dim()),
                 weights.as_ref(),
-            ),
+            )
+            .with_terms(lagrangian.terms()),
             warm: WarmStart::new(g, weights.as_ref()),
             coordinates: vec![0.0; c.dim()],
             delta: c.clone(),

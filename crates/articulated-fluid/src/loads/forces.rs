@@ -1,0 +1,253 @@
+//! Loads that are no gradient: what acts in joints and on bodies, summed to torques about the joints and a force on the whole.
+
+use lie::{Cotangent, Mat3, SO3, Scalar, Vec3};
+
+use super::{Drag, Servo, Thrust, Torque};
+use crate::tree::{ArticulatedBody, Configuration};
+
+/// What acts in a joint beside its spring.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointLoad {
+    /// $d \ge 0$ of a damper with the torque $-d \omega$ on the child, N m s/rad.
+    pub damping: f64,
+    /// As told.
+    pub torque: Option<Torque>,
+    /// A motor.
+    pub servo: Option<Servo>,
+}
+
+impl JointLoad {
+    /// Whether it does anything.
+    pub fn acts(&self) -> bool {
+        self.damping != 0.0 || self.torque.is_some() || self.servo.is_some()
+    }
+
+    /// Whether it is one of a hinge, or of a ball, and its numbers are sound.
+    pub(super) fn suits(&self, is_hinge: bool) -> bool {
+        let torque = self.torque.as_ref();
+        let of_hinge = torque.is_none_or(|torque| matches!(torque, Torque::Hinge(_)) == is_hinge);
+        let servo = self.servo.as_ref();
+        let sound = servo.is_none_or(|servo| servo.suits(is_hinge));
+        of_hinge && sound && is_size(self.damping)
+    }
+}
+
+fn power([omega, v]: Twist<f64>, [force, moment]: [Vec3; 2]) -> f64 {
+    force.dot(v) + moment.dot(omega)
+}
+
+/// Whether a number is finite and not negative.
+pub(super) fn is_size(x: f64) -> bool {
+    x.is_finite() && x >= 0.0
+}
+
+/// A joint with a load.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LoadedJoint {
+    /// None for the world.
+    pub(crate) parent: Option<usize>,
+    pub(crate) child: usize,
+    /// The number of a hinge, and its axis.
+    pub(crate) hinge: Option<(usize, Vec3)>,
+    pub(crate) load: JointLoad,
+}
+
+/// The loads that are no gradient.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Forces {
+    pub(crate) joints: Vec<LoadedJoint>,
+    pub(crate) drags: Vec<(usize, Drag)>,
+    pub(crate) thrusts: Vec<(usize, Thrust)>,
+}
+
+/// When, and in which configuration and attitudes forces act.
+#[derive(Clone, Copy)]
+pub(crate) struct Scenery<'a, S> {
+    pub(crate) t: S,
+    pub(crate) g: &'a Configuration<S>,
+    pub(crate) r: &'a [SO3<S>],
+}
+
+/// The rate and the velocity of the mass centre of a body, both in its frame.
+pub(crate) type Twist<S> = [Vec3<S>; 2];
+
+/// The torque on the child of a joint, and the rate of the child on the parent, in the child's frame.
+pub(crate) struct InJoint<S> {
+    pub(crate) torque: Vec3<S>,
+    pub(crate) rate: Vec3<S>,
+    /// $C$.
+    c: Mat3<S>,
+}
+
+impl LoadedJoint {
+    /// What the load does, (S18)–(S22).
+    #[inline(always)]
+    pub(crate) fn act<S: Scalar>(
+        &self,
+        at: Scenery<S>,
+        twist: impl Fn(usize) -> Twist<S>,
+    ) -> InJoint<S> {
+        let r = *at.r[self.child].matrix();
+        let [own, _] = twist(self.child);
+        let (c, rate) = match self.parent {
+            None => (r, own),
+            Some(parent) => {
+                let c = at.r[parent].matrix().transpose() * r;
+                (c, own - c.transpose_mul(twist(parent)[0]))
+            }
+        };
+        let torque = match self.hinge {
+            None => self.on_ball(at.t, &c, rate),
+            Some((k, axis)) => {
+                let axis = axis.lift();
+                let turning = [at.g.2[k].0[0], axis.dot(rate)];
+                self.on_hinge(at.t, axis, turning)
+            }
+        };
+        InJoint { torque, rate, c }
+    }
+
+    #[inline(always)]
+    fn on_ball<S: Scalar>(&self, t: S, c: &Mat3<S>, rate: Vec3<S>) -> Vec3<S> {
+        let mut sum = rate * S::from_f64(-self.load.damping);
+        if let Some(torque) = &self.load.torque {
+            sum += torque.at(t, Vec3::zero());
+        }
+        if let Some(servo) = &self.load.servo {
+            sum += servo.on_ball(t, c, rate);
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn on_hinge<S: Scalar>(&self, t: S, axis: Vec3<S>, turning: [S; 2]) -> Vec3<S> {
+        let mut sum = axis * turning[1].times(-self.load.damping);
+        if let Some(torque) = &self.load.torque {
+            sum += torque.at(t, axis);
+        }
+        if let Some(servo) = &self.load.servo {
+            sum += axis * servo.on_hinge(t, turning);
+        }
+        sum
+    }
+}
+
+impl Forces {
+    /// Whether there is nothing.
+    #[inline(always)]
+    pub(crate) fn are_none(&self) -> bool {
+        self.joints.is_empty() && !self.act_on_bodies()
+    }
+
+    /// From when to when each is told, s.
+    pub(crate) fn told(&self) -> impl Iterator<Item = [f64; 2]> {
+        let joints = self.joints.iter().flat_map(|joint| {
+            let torque = joint.load.torque.iter().map(Torque::told);
+            let servo = joint.load.servo.iter().map(|servo| servo.target.told());
+            torque.chain(servo)
+        });
+        let thrusts = self.thrusts.iter().map(|(_, thrust)| thrust.force.told());
+        joints.chain(thrusts)
+    }
+
+    /// Whether all that is told is a number at the time `t`.
+    pub(crate) fn are_known(&self, t: f64) -> bool {
+        let joints = self.joints.iter().all(|joint| {
+            let torque = joint.load.torque.as_ref();
+            let axis = Vec3([1.0, 0.0, 0.0]);
+            torque.is_none_or(|torque| torque.at(t, axis).is_finite())
+        });
+        let mut thrusts = self.thrusts.iter();
+        joints && thrusts.all(|(_, thrust)| thrust.wrench(t)[0].is_finite())
+    }
+
+    /// Whether something acts on a body from outside, so that momentum is not kept.
+    pub(crate) fn act_on_bodies(&self) -> bool {
+        !(self.drags.is_empty() && self.thrusts.is_empty())
+    }
+
+    /// Adds the torques about the joints times `scale`; the force on the whole times `scale`, in the reference frame, is returned.
+    #[inline(always)]
+    pub(crate) fn add<S: Scalar>(
+        &self,
+        tree: &ArticulatedBody,
+        at: Scenery<S>,
+        (twist, scale): (impl Fn(usize) -> Twist<S> + Copy, S),
+        work: &mut Vec<Vec3<S>>,
+        torques: &mut [Cotangent<3, S>],
+    ) -> Vec3<S> {
+        let mut add = |i: usize, torque: Vec3<S>| {
+            torques[i] = (torques[i].vec3() + torque * scale).into();
+        };
+        for joint in &self.joints {
+            let InJoint { torque, c, .. } = joint.act(at, twist);
+            add(joint.child, torque);
+            if let Some(parent) = joint.parent {
+                add(parent, -(c * torque));
+            }
+        }
+        if !self.act_on_bodies() {
+            return Vec3::zero();
+        }
+        work.clear();
+        work.resize(tree.nodes.len(), Vec3::zero());
+        for (i, wrench) in self.on_bodies(at.t, twist) {
+            work[i] += wrench[0];
+            add(i, wrench[1]);
+        }
+        // (S24): what the levers of the joints make of the forces.
+        for (i, node) in tree.nodes.iter().enumerate().rev() {
+            add(i, -node.at_self.lift::<S>().cross(work[i]));
+            if i > 0 {
+                let on_parent = at.r[node.parent].inverse_rotate(at.r[i].rotate(work[i]));
+                add(node.parent, node.at_parent.lift::<S>().cross(on_parent));
+                work[node.parent] += on_parent;
+            }
+        }
+        at.r[0].rotate(work[0]) * scale
+    }
+
+    /// What the load in the joint of a body does.
+    pub(crate) fn in_joint(
+        &self,
+        child: usize,
+        at: Scenery<f64>,
+        twist: impl Fn(usize) -> Twist<f64>,
+    ) -> Option<InJoint<f64>> {
+        let joint = self.joints.iter().find(|joint| joint.child == child)?;
+        Some(joint.act(at, twist))
+    }
+
+    /// The power of all drag, W; never positive.
+    pub(crate) fn drag_power(&self, twist: impl Fn(usize) -> Twist<f64>) -> f64 {
+        let drags = self.drags.iter().map(|(i, drag)| {
+            let [omega, v] = twist(*i);
+            power([omega, v], drag.wrench(omega, v))
+        });
+        drags.sum()
+    }
+
+    /// The power of all thrust, W.
+    pub(crate) fn thrust_power(&self, t: f64, twist: impl Fn(usize) -> Twist<f64>) -> f64 {
+        let thrusts = self.thrusts.iter();
+        thrusts
+            .map(|(i, thrust)| power(twist(*i), thrust.wrench(t)))
+            .sum()
+    }
+
+    /// Force at the mass centre and moment about it, in the body's frame, of all that acts on bodies.
+    #[inline(always)]
+    fn on_bodies<S: Scalar>(
+        &self,
+        t: S,
+        twist: impl Fn(usize) -> Twist<S>,
+    ) -> impl Iterator<Item = (usize, [Vec3<S>; 2])> {
+        let drag = move |(i, drag): &(usize, Drag)| {
+            let [omega, v] = twist(*i);
+            (*i, drag.wrench(omega, v))
+        };
+        let thrusts = self.thrusts.iter();
+        let thrusts = thrusts.map(move |(i, thrust)| (*i, thrust.wrench(t)));
+        self.drags.iter().map(drag).chain(thrusts)
+    }
+}

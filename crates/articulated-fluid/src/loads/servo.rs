@@ -1,0 +1,46 @@
+//! A motor that follows a motion, (S22).
+
+use lie::{Mat3, Scalar, Vec3};
+
+use super::forces::is_size;
+use crate::motion::Motion;
+
+/// A motor in a joint that pulls it towards a told attitude, and brakes what moves otherwise.
+///
+/// With the attitude $C$ on the parent, its rate $\omega$, the target $Q$ and its rate $a$, the torque on the child is
+/// $-k_p (E - E^T)^\vee / 2 - k_d (\omega - E^T a)$ with $E = Q^T C$. Of a ball it vanishes where $E$ is half a turn.
+/// Of a hinge it is $-k_p (q - q_d) - k_d (\dot q - \dot q_d)$ about the axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Servo {
+    /// $k_p \ge 0$, N m, of a hinge N m/rad.
+    pub stiffness: f64,
+    /// $k_d \ge 0$, N m s/rad.
+    pub damping: f64,
+    /// What it follows: of a hinge, a [`Motion::Hinge`].
+    pub target: Motion,
+}
+
+impl Servo {
+    /// Whether it is one of a hinge, or of a ball, and its numbers are sound.
+    pub(super) fn suits(&self, is_hinge: bool) -> bool {
+        let of_hinge = matches!(self.target, Motion::Hinge { .. });
+        of_hinge == is_hinge && is_size(self.stiffness) && is_size(self.damping)
+    }
+
+    /// The torque on the child of a ball, in its frame.
+    #[inline(always)]
+    pub(super) fn on_ball<S: Scalar>(&self, t: S, c: &Mat3<S>, omega: Vec3<S>) -> Vec3<S> {
+        let (target, rate) = self.target.at(t);
+        let e = target.matrix().transpose() * *c;
+        let pull = e.skew_vee() * S::from_f64(0.5 * self.stiffness);
+        let slip = omega - e.transpose_mul(rate);
+        -(pull + slip * S::from_f64(self.damping))
+    }
+
+    /// The torque about the axis of a hinge at this angle and rate.
+    #[inline(always)]
+    pub(super) fn on_hinge<S: Scalar>(&self, t: S, [q, rate]: [S; 2]) -> S {
+        let [angle, turning] = self.target.angle(t);
+        -((q - angle).times(self.stiffness) + (rate - turning).times(self.damping))
+    }
+}
