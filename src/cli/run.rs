@@ -33,7 +33,7 @@ pub struct Args {
     /// Simulated time, in seconds
     #[arg(long, value_name = "SECONDS", default_value = "100", value_parser = args::seconds, allow_hyphen_values = true)]
     until: f64,
-    /// The integrator; see `lgvi methods` [default: lgvi for the paper's scene or with a --step; else as --accuracy 1e-6 chooses]
+    /// The integrator; see `lgvi methods` [default: lgvi for the paper's scene; with a --step lgvi or composition-2; else as --accuracy 1e-6 chooses]
     #[arg(long, value_name = "NAME", value_parser = args::method())]
     method: Option<Method>,
     /// Step size, in seconds; a little shorter where whole steps would not end at --until [default: the method's, as the scene's motion asks for]
@@ -157,8 +157,8 @@ The keys of a scene:
 {keys}
 A scene that moves in a coordinate plane is stepped in the plane where all numbers out of it are exactly zero; one in a tilted
 plane is stepped in space.
-Nothing acts but weight, buoyancy, elastic joints, and joints that move as told. No scene has a motor, damping or drag: forces
-take the library. Hinge angles have no limits. What moves as told does work: then the summary tells how well
+Nothing acts but weight, buoyancy, springs, motors and dampers in joints, joints that move as told, drag and thrust: other forces
+take the library. Hinge angles have no limits. What moves as told, motors and drag do work: then the summary tells how well
 energy less work is kept. A scene of that kind is stepped by composition-2 where only a --step is given. Under a net weight the bodies speed up, and the energy error grows with their speed: that of lgvi in proportion
 to step and time.
 With --accuracy stages and step are found before the run and then fixed: a step that follows the motion would give up the

@@ -26,6 +26,9 @@ pub struct Summary<'a> {
     pub origin: Origin,
 }
 
+/// Drives that have a line of their own, at most.
+const MOST_DRIVES: usize = 6;
+
 /// What was left open by a user.
 #[derive(Clone, Copy)]
 pub struct Origin {
@@ -127,6 +130,10 @@ impl<'a> Summary<'a> {
         }
         let told = match (report.estimate_steps, report.trajectory_error_estimate) {
             (None, _) => "not estimated; --estimate does".to_owned(),
+            (Some(_), None) if report.step_halvings > 0 => {
+                "unknown: the step was halved on the way".to_owned()
+            }
+            (Some(_), None) if report.steps < 2 => "unknown: there is one step only".to_owned(),
             (Some(_), None) => "unknown: steps twice as long are not solved".to_owned(),
             (Some(steps), Some(error)) => {
                 let steps = more(steps);
@@ -185,25 +192,33 @@ impl<'a> Summary<'a> {
         rows
     }
 
-    /// What drives have done, and the one that has done most.
+    /// What drives have done: those that have had most power, and all.
     fn drives(&self) -> Vec<(&'static str, String)> {
-        let drives = &self.report.drives;
-        let by_work = |a: &&DriveReport, b: &&DriveReport| {
-            a.work_joules.abs().total_cmp(&b.work_joules.abs())
+        let mut drives: Vec<&DriveReport> = self.report.drives.iter().collect();
+        drives.sort_by(|a, b| b.power_max_watts.total_cmp(&a.power_max_watts));
+        let line = |drive: &&DriveReport| {
+            let torque = match drive.torque_max_newton_metres {
+                0.0 => String::new(),
+                torque => format!(" and {} N m", scientific(torque)),
+            };
+            let text = format!(
+                "{} J by {}; up to {} W{torque}",
+                scientific(drive.work_joules),
+                one_line(&drive.name),
+                scientific(drive.power_max_watts),
+            );
+            ("work", text)
         };
-        let Some(most) = drives.iter().max_by(by_work) else {
-            return vec![];
-        };
-        let total: f64 = drives.iter().map(|drive| drive.work_joules).sum();
-        let text = format!(
-            "{} J in all; most by {:?}: {} J, up to {} W and {} N m",
-            scientific(total),
-            most.name,
-            scientific(most.work_joules),
-            scientific(most.power_max_watts),
-            scientific(most.torque_max_newton_metres),
-        );
-        vec![("work of drives and loads", text)]
+        let mut rows: Vec<_> = drives.iter().take(MOST_DRIVES).map(line).collect();
+        if drives.len() > 1 {
+            let total: f64 = drives.iter().map(|drive| drive.work_joules).sum();
+            let of = match drives.len() > MOST_DRIVES {
+                true => format!("all {}, the strongest of them above", drives.len()),
+                false => "all".to_owned(),
+            };
+            rows.push(("work", format!("{} J by {of}", scientific(total))));
+        }
+        rows
     }
 
     fn energy(&self) -> Vec<(&'static str, String)> {
@@ -284,9 +299,13 @@ impl<'a> Summary<'a> {
         let since = report.step_shortened_at_seconds;
         if let Some((at, from)) = since.zip(report.step_shortened_from_seconds) {
             let (from, at) = (decimal(from), decimal(at));
-            let to = decimal(report.step_seconds);
+            let (to, times) = (decimal(report.step_seconds), report.step_halvings);
+            let halved = match times {
+                1 => "halved".to_owned(),
+                times => format!("halved {times} times"),
+            };
             return format!(
-                "{from} s, the method's default; not solved at t = {at} s, from there on {to} s"
+                "{from} s, the method's default; {halved} from t = {at} s on, where it was not solved, to {to} s"
             );
         }
         let step = decimal(report.step_seconds);

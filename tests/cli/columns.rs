@@ -101,7 +101,7 @@ fn a_driven_run_tells_the_work_of_its_joints() {
     let told = lgvi(directory.path(), &args);
     assert_eq!(told.status.code(), Some(0), "{}", text(&told.stderr));
     let told = text(&told.stdout);
-    assert!(told.contains("work of drives and loads") && told.contains("energy less work, error"));
+    assert!(told.contains(" J by ") && told.contains("energy less work, error"));
     let table = fs::read_to_string(directory.path().join("f.csv")).unwrap();
     let names: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     let column = |name: &str| -> Vec<f64> {

@@ -117,6 +117,17 @@ impl ArticulatedBody {
         })
     }
 
+    /// How fast what is told changes in the first seconds, rad/s; zero where nothing is told.
+    pub fn told_rate(&self, until: f64) -> f64 {
+        let place = match &self.base {
+            Base::Free => 0.0,
+            Base::Held { place, .. } => motion::rate(place.as_ref(), until),
+        };
+        let motions = self.joints.motions.iter().map(|motion| motion.rate(until));
+        let all = motions.chain(self.loads.forces.told_rates(until));
+        all.fold(place, f64::max)
+    }
+
     /// Whether all motions are numbers at the time `t`.
     pub(crate) fn knows(&self, t: f64) -> bool {
         let known = self

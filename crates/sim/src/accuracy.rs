@@ -4,11 +4,12 @@
 //! companion's error is about $1.25^p \ge 6$ times as large, so their difference bounds the error where the order is seen. Where it is
 //! not, for steps too long or where rounding leads, the difference is still of the size of the larger of two errors.
 
-use articulated_fluid::Configuration;
+use articulated_fluid::{ArticulatedBody, Configuration};
 use dvi::{PilotError, State, StepError};
 
 use crate::clock::Clock;
 use crate::companion::{Companion, next_look};
+use crate::drives::Drives;
 use crate::error::{LARGEST_ACCURACY, SimError};
 use crate::method::BoxedIntegrator;
 use crate::run::Run;
@@ -111,6 +112,7 @@ enum Outcome {
 
 /// A run that is to be accurate.
 pub(crate) struct Search<'a> {
+    pub(crate) model: &'a ArticulatedBody,
     pub(crate) make: &'a dyn Fn(u32, f64) -> BoxedIntegrator<Configuration>,
     pub(crate) start: State<Configuration>,
     pub(crate) until: f64,
@@ -199,10 +201,14 @@ impl Search<'_> {
         foreseeing: bool,
     ) -> Outcome {
         let (steps, mut growth, mut held) = (run.clock().steps(), Growth::default(), 0.0);
+        let mut balance = Balance::new(self.model, &self.start);
         let mut at = 0;
         while at < steps {
             at = next_look(at, steps);
-            let apart = run.advance(at).and_then(|()| companion.apart(run.state()));
+            let apart = balance.advance(run, at).and_then(|unbalanced| {
+                let apart = companion.apart(run.state())?;
+                Ok(apart.max(unbalanced))
+            });
             let apart = match apart {
                 Ok(apart) => apart,
                 Err(source) => return Outcome::Refused { held, source },
@@ -223,6 +229,50 @@ impl Search<'_> {
         Outcome::Kept {
             estimate: growth.worst(),
         }
+    }
+}
+
+/// Energy less work of a driven run: a pose that is told is right at any step, what it takes is not.
+struct Balance<'a> {
+    model: &'a ArticulatedBody,
+    drives: Drives,
+    energy: f64,
+    /// The largest so far, J.
+    kinetic: f64,
+}
+
+impl<'a> Balance<'a> {
+    fn new(model: &'a ArticulatedBody, start: &State<Configuration>) -> Self {
+        let kept = model.conserved(start);
+        let [energy, kinetic] = kept.map_or([f64::NAN; 2], |kept| [kept.energy, kept.kinetic]);
+        Self {
+            model,
+            drives: Drives::new(model),
+            energy,
+            kinetic,
+        }
+    }
+
+    /// Goes on to step number `at`; by how much energy and work differ there, in parts of the largest kinetic energy.
+    fn advance(
+        &mut self,
+        run: &mut Run<BoxedIntegrator<Configuration>>,
+        at: u64,
+    ) -> Result<f64, StepError> {
+        if self.drives.are_none() {
+            return run.advance(at).map(|()| 0.0);
+        }
+        while run.cost().steps < at {
+            self.drives.step(self.model, run)?;
+        }
+        // What is no number there, the run itself will refuse.
+        let Ok(kept) = self.model.conserved(run.state()) else {
+            return Ok(0.0);
+        };
+        self.kinetic = self.kinetic.max(kept.kinetic);
+        let off = kept.energy - self.energy - self.drives.work();
+        let relative = off.abs() / self.kinetic;
+        Ok(if relative.is_finite() { relative } else { 0.0 })
     }
 }
 

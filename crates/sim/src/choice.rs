@@ -112,7 +112,7 @@ impl Stage<'_> {
                 positive("time to run to, in seconds,", self.until)?;
                 Ok(Chosen {
                     method,
-                    step: self.on_model(DefaultStep(method)),
+                    step: self.on_model(DefaultStep(method, self.longest())),
                     checked: None,
                 })
             }
@@ -132,7 +132,7 @@ impl Stage<'_> {
     }
 
     fn accurate(&self, accuracy: f64) -> Result<Chosen, SimError> {
-        let (guess, spent) = self.on_model(Guess(accuracy))?;
+        let (guess, spent) = self.on_model(Guess(accuracy, self.longest()))?;
         let make = |stages, tolerance| {
             let checked = Checked {
                 tolerance,
@@ -142,6 +142,7 @@ impl Stage<'_> {
             self.integrator(&chosen(stages, self.until, checked))
         };
         let mut search = Search {
+            model: self.model,
             make: &make,
             start: self.scene.initial_state()?,
             until: self.until,
@@ -154,6 +155,11 @@ impl Stage<'_> {
             self.until / found.steps as f64,
             checked,
         ))
+    }
+
+    /// The longest easy step for what moves as told, s: the unknowns alone may not show how fast that is.
+    fn longest(&self) -> f64 {
+        TOLD / self.model.told_rate(self.until.min(BEGINNING))
     }
 
     /// Asks the smallest model, in space or in its plane.
@@ -187,11 +193,13 @@ trait Ask {
     fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> Self::Answer;
 }
 
-/// The step that a method takes where none is given.
-struct DefaultStep(Method);
+/// The step that a method takes where none is given, with the longest easy step for what moves as told.
+struct DefaultStep(Method, f64);
 
 /// The longest easy step of a [`Scout`] on the paper's scene, s.
 const PAPER: f64 = 0.1;
+/// The radians that what moves as told may go on in an easy step.
+const TOLD: f64 = 0.6;
 /// A default step is that of the first so many seconds, so that it does not depend on the length of the run.
 const BEGINNING: f64 = 100.0;
 /// The doublings of a default step, at most: of a motion that hardly moves, and of one that is very fast.
@@ -206,7 +214,8 @@ impl Ask for DefaultStep {
 
     fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> f64 {
         let scout = Scout::run(model, start, BEGINNING);
-        let ratio = scout.step.map_or(f64::INFINITY, |step| step / PAPER);
+        let easy = scout.step.unwrap_or(f64::INFINITY).min(self.1);
+        let ratio = easy / PAPER;
         let doublings = ratio.log2().round().clamp(DOUBLINGS[0], DOUBLINGS[1]);
         let mut step = self.0.default_step() * doublings.exp2();
         for _ in 0..HALVINGS {
@@ -230,8 +239,8 @@ impl DefaultStep {
     }
 }
 
-/// Stages and step for an accuracy, not yet checked, and the steps that this took.
-struct Guess(f64);
+/// Stages and step for an accuracy, not yet checked, and the steps that this took; with the longest easy step for what moves as told.
+struct Guess(f64, f64);
 
 /// The easy steps that a pilot run goes over.
 const PILOTED: f64 = 64.0;
@@ -239,6 +248,8 @@ const PILOTED: f64 = 64.0;
 const PART: f64 = 0.1;
 /// No pilot is asked for less.
 const LEAST: f64 = 1e-13;
+/// A step is at most so many that are easy for what moves as told.
+const LONGEST: f64 = 2.0;
 /// A guess where no pilot makes one: the stages, and the step in parts of an easy one.
 const FALLBACK: (u32, f64) = (8, 0.25);
 
@@ -247,7 +258,7 @@ impl Ask for Guess {
 
     fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> Self::Answer {
         let scout = Scout::run(model, start, until);
-        let easy = scout.step.unwrap_or(until);
+        let easy = scout.step.unwrap_or(until).min(self.1);
         let duration = until.min(PILOTED * easy);
         let wanted = (PART * self.0 * duration / until).max(LEAST);
         let pilot = match Pilot::run(model, &scout.fastest, duration, wanted) {
@@ -259,7 +270,8 @@ impl Ask for Guess {
         let candidate = |stages, step, tolerance| Candidate::new(stages, until, step, tolerance);
         match pilot {
             Ok(pilot) => {
-                let guess = candidate(pilot.stages as u32, pilot.h, pilot.tolerance);
+                let step = pilot.h.min(LONGEST * self.1);
+                let guess = candidate(pilot.stages as u32, step, pilot.tolerance);
                 Ok((guess, scout.steps + pilot.steps))
             }
             Err(PilotError::OutOfReach { .. }) => {

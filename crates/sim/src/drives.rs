@@ -47,6 +47,11 @@ impl Drives {
         }
     }
 
+    /// Whether nothing moves as told.
+    pub(crate) fn are_none(&self) -> bool {
+        self.now.is_empty()
+    }
+
     /// The work of all, J.
     pub(crate) fn work(&self) -> f64 {
         self.now.iter().map(|drive| drive.work).sum()

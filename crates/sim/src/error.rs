@@ -55,8 +55,12 @@ pub enum SimError {
     },
     /// A motion is not told from the start to the end of the run.
     #[error(
-        "what moves as told is told from {} s to {} s, and the run goes from 0 s to {} s; take a shorter --until, a longer table, or repeat = true",
-        decimal(*from), decimal(*to), decimal(*until)
+        "what moves as told is told from {} s to {} s, and the run goes from 0 s to {} s; {}",
+        decimal(*from), decimal(*to), decimal(*until),
+        match *from > 0.0 {
+            true => "let the table begin at 0 s or before",
+            false => "take a shorter --until, a longer table, or repeat = true",
+        }
     )]
     Untold {
         /// When the motions begin, s.

@@ -65,6 +65,6 @@ pub use method::{BoxedIntegrator, Method, UnknownMethod};
 pub use report::Report;
 pub use run::{Cost, Run, See};
 pub use schedule::{Due, Schedule};
-pub use simulation::{CHUNK, Plan, Simulation};
+pub use simulation::{CHUNK, Plan, Simulation, check_told};
 pub use table::Table;
 pub use watch::Watch;

@@ -37,6 +37,8 @@ pub struct Report {
     pub step_shortened_at_seconds: Option<f64>,
     /// The step until then.
     pub step_shortened_from_seconds: Option<f64>,
+    /// How often it was halved from then on.
+    pub step_halvings: u32,
     /// The longest step that was to be taken.
     pub step_asked_seconds: f64,
     /// The time to run to.
@@ -131,6 +133,7 @@ impl Simulation {
             step_seconds: clock.step(),
             step_shortened_at_seconds: self.shortened.map(|shortened| shortened.at),
             step_shortened_from_seconds: self.shortened.map(|shortened| shortened.from),
+            step_halvings: self.shortened.map_or(0, |shortened| shortened.halvings),
             step_asked_seconds: clock.asked(),
             until_seconds: clock.until(),
             accuracy_asked: accuracy,

@@ -89,6 +89,18 @@ impl Plan {
     }
 }
 
+/// Refuses a run that goes on beyond what its tables tell.
+///
+/// # Errors
+/// [`SimError::Untold`].
+pub fn check_told(model: &ArticulatedBody, until: f64) -> Result<(), SimError> {
+    let [from, to] = model.told();
+    match until > to || from > 0.0 {
+        true => Err(SimError::Untold { from, to, until }),
+        false => Ok(()),
+    }
+}
+
 /// A run of a scene: an iterator over its frames, from t = 0 to the end.
 ///
 /// It owns all that it needs and does nothing between two calls. To stop a run is to call no more: the
@@ -143,11 +155,7 @@ impl Simulation {
     /// [`SimError`].
     pub fn new(scene: &Scene, plan: &Plan) -> Result<Self, SimError> {
         let (model, smallest) = (scene.model()?, scene.smallest()?);
-        let [from, to] = model.told();
-        if plan.until > to || from > 0.0 {
-            let until = plan.until;
-            return Err(SimError::Untold { from, to, until });
-        }
+        check_told(&model, plan.until)?;
         let stage = plan.on(scene, &model, &smallest);
         let start = scene.initial_state()?;
         let first = Frame::new(&model, start.clone());
@@ -314,7 +322,7 @@ pub(crate) struct Shortened {
     /// The step until then, s.
     pub(crate) from: f64,
     /// Since then.
-    halvings: u32,
+    pub(crate) halvings: u32,
 }
 
 impl Iterator for Simulation {

@@ -51,6 +51,9 @@ impl Symmetry {
     }
 }
 
+/// A momentum is no more than rounding below this part of what the kinetic energy may have.
+const ROUNDING: f64 = 1e-12;
+
 /// The worst of the samples so far, against the first.
 #[derive(Clone, Copy, Debug)]
 pub struct Watch {
@@ -58,6 +61,8 @@ pub struct Watch {
     start: Sample,
     count: u64,
     energy: f64,
+    /// kg m², of all bodies about their mass centres.
+    inertia: f64,
     /// The largest kinetic energy: unlike a potential, it does not depend on the origin.
     kinetic: f64,
     linear: f64,
@@ -74,6 +79,7 @@ impl Watch {
             start,
             count: 0,
             energy: 0.0,
+            inertia: model.bodies().map(|body| body.inertia.trace()).sum(),
             kinetic: 0.0,
             linear: 0.0,
             angular: 0.0,
@@ -155,9 +161,11 @@ impl Watch {
         self.angular
     }
 
-    /// The same relative to the start.
+    /// The same relative to the start; none where that is but rounding of what the kinetic energy may have.
     pub fn angular_relative(&self) -> Option<f64> {
-        relative(self.angular, self.start.angular.norm())
+        let start = self.start.angular.norm();
+        let rounding = ROUNDING * (2.0 * self.kinetic * self.inertia).sqrt();
+        relative(self.angular, start).filter(|_| start > rounding || self.angular == 0.0)
     }
 
     /// The largest orthogonality error.

@@ -3,6 +3,7 @@
 use lie::{Cotangent, Mat3, SO3, Scalar, Vec3};
 
 use super::{Drag, Servo, Thrust, Torque};
+use crate::motion;
 use crate::tree::{ArticulatedBody, Configuration};
 
 /// What acts in a joint beside its spring.
@@ -148,6 +149,18 @@ impl Forces {
         });
         let thrusts = self.thrusts.iter().map(|(_, thrust)| thrust.force.told());
         joints.chain(thrusts)
+    }
+
+    /// How fast each that is told changes, rad/s.
+    pub(crate) fn told_rates(&self, until: f64) -> impl Iterator<Item = f64> {
+        let joints = self.joints.iter().flat_map(move |joint| {
+            let torque = joint.load.torque.iter();
+            let torque = torque.map(move |torque| torque.rate(until));
+            let servo = joint.load.servo.iter();
+            torque.chain(servo.map(move |servo| servo.target.rate(until)))
+        });
+        let thrusts = self.thrusts.iter();
+        joints.chain(thrusts.map(move |(_, thrust)| motion::rate(thrust.force.as_ref(), until)))
     }
 
     /// Whether all that is told is a number at the time `t`.

@@ -35,6 +35,14 @@ impl Torque {
         }
     }
 
+    /// How fast it changes, rad/s.
+    pub(crate) fn rate(&self, until: f64) -> f64 {
+        match self {
+            Self::Hinge(law) => motion::rate(law.as_ref(), until),
+            Self::Ball(law) => motion::rate(law.as_ref(), until),
+        }
+    }
+
     /// The torque at a time, in the child's frame, in which a hinge has this axis.
     #[inline(always)]
     pub(super) fn at<S: Scalar>(&self, t: S, axis: Vec3<S>) -> Vec3<S> {

@@ -94,6 +94,15 @@ impl Motion {
         }
     }
 
+    /// How fast it changes in the first seconds, rad/s.
+    pub(crate) fn rate(&self, until: f64) -> f64 {
+        match self {
+            Self::Hinge { angle, .. } => law::rate(angle.as_ref(), until),
+            Self::Ball { turn, .. } => law::rate(turn.as_ref(), until),
+            Self::Fixed(_) | Self::Function(_) => 0.0,
+        }
+    }
+
     /// The angle of a hinge, rad, and its rate; of the others, not a number.
     pub(crate) fn angle<S: Scalar>(&self, t: S) -> [S; 2] {
         match self {

@@ -20,6 +20,21 @@ pub trait Law<const N: usize>: Debug + Send + Sync {
     }
 }
 
+/// How fast a law changes in the first seconds, rad/s: of a sinusoid $2 \pi f$; from its derivatives at many times, where they are known.
+pub(crate) fn rate<const N: usize>(law: &dyn Law<N>, until: f64) -> f64 {
+    const TIMES: u32 = 1024;
+    let largest = |k: u32| {
+        let at = |i: u32| law.derivative(until * f64::from(i) / f64::from(TIMES), k);
+        let all = (0..=TIMES).flat_map(at).map(f64::abs);
+        all.filter(|x| x.is_finite()).fold(0.0, f64::max)
+    };
+    let (first, third) = (largest(1), largest(3));
+    match first > 0.0 {
+        true => (third / first).sqrt(),
+        false => 0.0,
+    }
+}
+
 /// The values of a law.
 #[inline(always)]
 pub(crate) fn value<const N: usize, S: Scalar>(law: &dyn Law<N>, t: S) -> [S; N] {

@@ -10,6 +10,6 @@ mod spline;
 
 pub use attitude::Motion;
 pub use law::Law;
-pub(crate) use law::{at, value};
+pub(crate) use law::{at, rate, value};
 pub use sinusoid::Sinusoid;
 pub use spline::{Ends, Spline, SplineError};

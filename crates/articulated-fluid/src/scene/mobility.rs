@@ -135,13 +135,10 @@ fn refuse_others(
     let Some(other) = others.find_map(|key| table.get(key)) else {
         return Ok(());
     };
-    let moves = match driven {
-        true => "prescribed",
-        false => "free",
-    };
-    let article = match word {
-        "fixed" => "a fixed joint".to_owned(),
-        word => format!("a {moves} {word} joint"),
+    let article = match (word, driven) {
+        ("fixed", _) => "a fixed joint".to_owned(),
+        (word, true) => format!("a {word} joint that moves as told"),
+        (word, false) => format!("a free {word} joint"),
     };
     let keys = match allowed {
         [] => "none of these keys".to_owned(),

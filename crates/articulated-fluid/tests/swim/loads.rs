@@ -139,7 +139,8 @@ fn energy_and_the_work_of_every_load_balance_with_the_order() {
         &format!("semi_axes = [0.3, 0.05, 0.1], {drag}"),
         1,
     );
-    for text in [MOTORS, &dragged] {
+    let held = dragged.replacen("joint = [", "joint = [ { parent = 'world', child = 'a', at_parent = [0, 0, 0], at_child = [0.1, 0, 0], place = { amplitude = [0.1, 0, 0.05], frequency = 1 } },", 1);
+    for text in [MOTORS, &dragged, &held] {
         let scene = Scene::parse(text, "motors.toml").expect("a scene");
         let model = scene.model().expect("a model");
         type Boxed = Box<dyn Integrator<Group = articulated_fluid::Configuration>>;

@@ -330,3 +330,84 @@ fn a_run_beyond_the_end_of_a_table_is_refused() {
     );
     assert_eq!(run(2.0), Ok(true));
 }
+
+/// A hinge that flaps at 1 Hz, and later than a default step looks at turns by 9 rad in a twentieth of a second.
+fn spike() -> Scene {
+    let directory = tempfile::tempdir().unwrap();
+    let folder = directory.path();
+    let row = |k: i32| {
+        let t = 0.01 * f64::from(k);
+        format!(
+            "{t},{}\n",
+            0.3 * (6.0 * t).sin() + 4.5 * ((t - 105.0) / 0.02).tanh()
+        )
+    };
+    let rows: String = (0..=11_000).map(row).collect();
+    std::fs::write(folder.join("spike.csv"), format!("t,angle\n{rows}")).unwrap();
+    let text = "
+        fluid.density = 1000
+        body = [{ name = 'a', semi_axes = [0.3, 0.05, 0.1], angular_velocity = [0.2, 0.3, 0.1] }, { name = 'b', semi_axes = [0.2, 0.03, 0.1] },
+                { name = 'c', semi_axes = [0.2, 0.03, 0.1] }]
+        joint = [{ parent = 'a', child = 'b', at_parent = [-0.32, 0, 0], at_child = [0.22, 0, 0], type = 'hinge', axis = [0, 0.2, 1], motion = { file = 'spike.csv' } },
+                 { parent = 'b', child = 'c', at_parent = [-0.22, 0, 0], at_child = [0.22, 0, 0] }]
+    ";
+    std::fs::write(folder.join("spike.toml"), text).unwrap();
+    Scene::load(&folder.join("spike.toml")).unwrap()
+}
+
+/// The frames are those of the schedule, none twice, and the works add up, wherever the step was halved.
+#[test]
+fn a_default_step_that_is_not_solved_is_halved_on_the_way() {
+    let scene = spike();
+    for schedule in [Schedule::Seconds(0.37), Schedule::Steps(1)] {
+        let plan = Plan {
+            choice: Method::gauss(8).unwrap().into(),
+            until: 110.0,
+            schedule,
+            ..Plan::default()
+        };
+        let mut simulation = Simulation::new(&scene, &plan).unwrap();
+        let frames: Vec<_> = simulation.by_ref().collect::<Result<_, _>>().unwrap();
+        let report = simulation.report();
+        let halved = report.step_shortened_at_seconds;
+        assert!(halved.is_some_and(|t| t > 103.0 && t < 105.5), "{halved:?}");
+        assert!(report.step_halvings > 0 && simulation.is_done());
+        assert_eq!(report.samples, frames.len() as u64);
+        for pair in frames.windows(2) {
+            assert!(pair[1].t() > pair[0].t());
+            let gained = pair[1].drives[0].work - pair[0].drives[0].work;
+            let mean = pair[1].drives[0].power * (pair[1].t() - pair[0].t());
+            assert!((gained - mean).abs() < 1e-9 * (1.0 + gained.abs()));
+        }
+        assert_eq!(frames.last().unwrap().t(), 110.0);
+        if let Schedule::Seconds(every) = schedule {
+            assert_eq!(frames.len(), (110.0_f64 / every) as usize + 2);
+            for (k, frame) in frames.iter().rev().skip(1).rev().enumerate() {
+                assert_eq!(frame.t(), k as f64 * every);
+            }
+        }
+    }
+}
+
+/// The pose of what has no unknown is exact at any step: what is asked holds for the work too.
+#[test]
+fn an_accuracy_of_a_scene_without_unknowns_is_that_of_its_work() {
+    let text = "
+        fluid.density = 1000
+        body = [{ name = 'a', semi_axes = [0.3, 0.05, 0.1] }, { name = 'b', semi_axes = [0.2, 0.03, 0.1] }]
+        joint = [{ parent = 'world', child = 'a', at_parent = [0, 0, 0], at_child = [0.1, 0, 0], type = 'fixed', place = { amplitude = [0, 0.1, 0.05], frequency = 8 } },
+                 { parent = 'a', child = 'b', at_parent = [-0.32, 0, 0], at_child = [0.22, 0, 0], motion = { amplitude = [0.2, 0.3, 0.5], frequency = 8, phase = [0, 1, 2] } }]
+    ";
+    let scene = Scene::parse(text, "driven.toml").unwrap();
+    for choice in [Choice::Accuracy(1e-6), Method::gauss(8).unwrap().into()] {
+        let plan = Plan {
+            choice,
+            until: 2.0,
+            ..Plan::default()
+        };
+        let mut simulation = Simulation::new(&scene, &plan).unwrap();
+        assert!(simulation.by_ref().all(|frame| frame.is_ok()));
+        let off = simulation.report().energy_error_max_relative.unwrap();
+        assert!(off < 2e-6, "{choice:?}: {off:e}");
+    }
+}

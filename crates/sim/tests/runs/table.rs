@@ -74,19 +74,26 @@ fn the_columns_are_the_frames_to_the_last_digit() {
 }
 
 /// A scene with every kind of column.
-fn hinged() -> Scene {
-    let text = include_str!("../../../../scenes/swim/triple-pendulum.toml");
-    Scene::parse(text, "triple-pendulum.toml").unwrap()
+/// A scene that has something of every column: hinges, a drive, drag and thrust.
+fn loaded() -> Scene {
+    let text = "
+        fluid.density = 1000
+        body = [{ name = 'a', semi_axes = [0.3, 0.05, 0.1], drag = { linear = [1, 2, 3] }, thrust = { force = [1, 0, 0] } },
+                { name = 'b', semi_axes = [0.2, 0.03, 0.1] }, { name = 'c', semi_axes = [0.2, 0.03, 0.1] }]
+        joint = [{ parent = 'a', child = 'b', at_parent = [-0.32, 0, 0], at_child = [0.22, 0, 0], type = 'hinge', axis = [0, 0, 1], damping = 0.1 },
+                 { parent = 'b', child = 'c', at_parent = [-0.22, 0, 0], at_child = [0.22, 0, 0], motion = { amplitude = [0, 0.2, 0.5], frequency = 1 } }]
+    ";
+    Scene::parse(text, "loaded.toml").unwrap()
 }
 
 #[test]
 fn each_column_is_told_of_and_named_once() {
-    let mut table = Table::with_all_columns(vec![], &hinged()).unwrap();
+    let mut table = Table::with_all_columns(vec![], &loaded()).unwrap();
     let plan = Plan {
         until: 0.1,
         ..Plan::default()
     };
-    let mut simulation = Simulation::new(&hinged(), &plan).unwrap();
+    let mut simulation = Simulation::new(&loaded(), &plan).unwrap();
     table.row(&simulation.next().unwrap().unwrap()).unwrap();
     let text = String::from_utf8(table.into_inner()).unwrap();
     let (header, _) = read(&text);
