@@ -2,7 +2,7 @@
 
 use lie::{Scalar, Vec3};
 
-use super::forces::is_size;
+use super::size::is_size;
 
 /// Drag of a body along and about its axes: $f_a = -(c_a + q_a |V_a|) V_a$ and $m_a = -(r_a + s_a |\Omega_a|) \Omega_a$ at its mass centre.
 ///

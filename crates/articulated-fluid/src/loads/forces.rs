@@ -2,6 +2,7 @@
 
 use lie::{Cotangent, Mat3, SO3, Scalar, Vec3};
 
+use super::size::is_size;
 use super::{Drag, Servo, Thrust, Torque};
 use crate::motion;
 use crate::tree::{ArticulatedBody, Configuration};
@@ -35,11 +36,6 @@ impl JointLoad {
 
 fn power([omega, v]: Twist<f64>, [force, moment]: [Vec3; 2]) -> f64 {
     force.dot(v) + moment.dot(omega)
-}
-
-/// Whether a number is finite and not negative.
-pub(super) fn is_size(x: f64) -> bool {
-    x.is_finite() && x >= 0.0
 }
 
 /// A joint with a load.

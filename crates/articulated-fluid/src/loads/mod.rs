@@ -6,6 +6,7 @@ mod gravity;
 mod hinge_spring;
 mod on_tree;
 mod servo;
+mod size;
 mod spring;
 mod thrust;
 mod torque;

@@ -2,7 +2,7 @@
 
 use lie::{Mat3, Scalar, Vec3};
 
-use super::forces::is_size;
+use super::size::is_size;
 use crate::motion::Motion;
 
 /// A motor in a joint that pulls it towards a told attitude, and brakes what moves otherwise.

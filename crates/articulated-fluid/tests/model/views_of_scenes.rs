@@ -30,6 +30,8 @@ fn scene(sample: &Sample, velocity: StartVelocity) -> Scene {
             total_mass: body.mass.0,
             total_inertia: body.inertia.0,
             net_mass,
+            drag: None,
+            thrust: None,
             attitude: r.to_quaternion(),
             angular_velocity: rate.0,
         });
