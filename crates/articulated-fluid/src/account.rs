@@ -176,7 +176,8 @@ impl Scene {
 }
 
 /// Why a view is not taken of other trees.
-const BALLS: &str = "only of a free tree on ball joints without motors, dampers and drag";
+const BALLS: &str =
+    "only of a free tree on ball joints without motors, dampers, drag and points of buoyancy";
 
 fn translation(model: &ArticulatedBody) -> Reduction {
     let why = match model.is_free() {

@@ -44,7 +44,9 @@ impl Scene {
             return Ok(model);
         }
         let net_masses: Vec<f64> = self.bodies.iter().map(|body| body.net_mass).collect();
-        model.with_gravity(Vec3(self.gravity), &net_masses)
+        let model = model.with_gravity(Vec3(self.gravity), &net_masses)?;
+        let buoyancy = self.bodies.iter().map(SceneBody::buoyancy_moment);
+        model.with_buoyancy(&buoyancy.collect::<Vec<_>>())
     }
 
     /// What some bodies have, with their numbers.
@@ -58,9 +60,11 @@ impl Scene {
             .collect()
     }
 
-    /// Whether gravity acts on a body that is heavier or lighter than what it displaces.
+    /// Whether gravity acts on a body: one that is heavier or lighter than what it displaces, or has its buoyancy elsewhere.
     pub(crate) fn has_weight(&self) -> bool {
-        self.gravity != [0.0; 3] && self.bodies.iter().any(|body| body.net_mass != 0.0)
+        let acts =
+            |body: &SceneBody| body.net_mass != 0.0 || body.buoyancy_moment() != Vec3::zero();
+        self.gravity != [0.0; 3] && self.bodies.iter().any(acts)
     }
 
     /// The state at t = 0: attitudes and velocities as given, the momentum by the Legendre transform (10).

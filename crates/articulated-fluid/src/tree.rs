@@ -216,7 +216,9 @@ impl ArticulatedBody {
 
     /// Whether a [view](crate::View) of it may be better.
     pub(crate) fn has_views(&self) -> bool {
-        self.is_simple() && !self.has_forces()
+        let weight = self.loads.weight.as_ref();
+        let is_central = weight.is_none_or(|weight| !weight.has_points());
+        self.is_simple() && !self.has_forces() && is_central
     }
 
     /// Whether a joint or a place moves as told.

@@ -3,6 +3,7 @@
 //! The net force on body $i$ is $m_i \gamma$ at its mass centre, with the gravity $\gamma$ and the mass $m_i$ less that of the
 //! displaced fluid. The forces are parallel, so each body only needs the sum $w_i$ of its subtree and one constant lever:
 //! $$ U = -\sum_i m_i \gamma \cdot x_i = -w_0\, \gamma \cdot x - \sum_i \gamma \cdot R_i s_i, \qquad s_i = \sum_{k \text{ on } i} w_k d_{ik} - w_i d_{ip(i)} . $$
+//! Buoyancy at the point $b_i$ of a body that displaces $\rho V_i$ adds $-\rho V_i b_i$ to $s_i$, (S28).
 
 use lie::{Cotangent, SO3, Scalar, Vec3};
 
@@ -19,6 +20,8 @@ pub(crate) struct Weight {
     total: f64,
     /// $s_i$, kg m, in the body's frame.
     levers: Vec<Vec3>,
+    /// Whether buoyancy acts anywhere but at a mass centre.
+    has_points: bool,
 }
 
 impl Weight {
@@ -44,7 +47,22 @@ impl Weight {
                 total
             },
             levers: levers.into_iter().zip(lengths).map(kept).collect(),
+            has_points: false,
         }
+    }
+
+    /// The same with buoyancy of these moments $\rho V_i b_i$ about the mass centres, kg m in the bodies' frames.
+    pub(crate) fn with_buoyancy(mut self, moments: &[Vec3]) -> Self {
+        for (lever, moment) in self.levers.iter_mut().zip(moments) {
+            *lever -= *moment;
+            self.has_points |= *moment != Vec3::zero();
+        }
+        self
+    }
+
+    /// Whether buoyancy acts anywhere but at a mass centre.
+    pub(crate) fn has_points(&self) -> bool {
+        self.has_points
     }
 
     /// The same levers on a whole that floats.

@@ -30,6 +30,26 @@ impl ArticulatedBody {
         Ok(self)
     }
 
+    /// The same with buoyancy anywhere in the bodies: for each the displaced mass times the point of its buoyancy from the mass centre, kg m in
+    /// its frame. It adds to [`with_gravity`](Self::with_gravity), and is nothing without.
+    ///
+    /// # Errors
+    /// [`ModelError::NetMasses`] where there is not one for each body; [`ModelError::NotFinite`] where one is not.
+    pub fn with_buoyancy(mut self, moments: &[Vec3]) -> Result<Self, ModelError> {
+        let (expected, found) = (self.nodes.len(), moments.len());
+        if expected != found {
+            return Err(ModelError::NetMasses { expected, found });
+        }
+        let weight = self.loads.weight.take();
+        self.loads.weight = weight.map(|weight| weight.with_buoyancy(moments));
+        match self.loads.weight.as_ref().is_none_or(Weight::is_finite) {
+            true => Ok(self),
+            false => Err(ModelError::NotFinite {
+                quantity: "buoyancy",
+            }),
+        }
+    }
+
     /// Gravity, m/s² in the reference frame, where it acts on a net mass.
     pub fn gravity(&self) -> Option<Vec3> {
         self.loads.weight.as_ref().map(Weight::gravity)

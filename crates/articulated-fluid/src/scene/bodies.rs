@@ -39,6 +39,7 @@ pub(super) fn check<'a>(
         let body = forms::check(&table, name.text, around)?;
         bodies.push(SceneBody {
             attitude: table.read("attitude", body.attitude, Value::attitude)?,
+            buoyancy_at: loads::buoyancy_at(&table, body.mass().is_some())?,
             drag: loads::drag(&table)?,
             thrust: loads::thrust(&table)?,
             ..body

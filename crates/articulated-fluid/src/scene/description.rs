@@ -1,6 +1,6 @@
 //! What a scene is once it is read.
 
-use lie::Mat3;
+use lie::{Mat3, Vec3};
 
 use super::mobility::Mobility;
 use super::note::Note;
@@ -70,6 +70,8 @@ pub struct SceneBody {
     pub total_inertia: [[f64; 3]; 3],
     /// Mass of the body less that of the displaced fluid, kg; 0 where it is not known, as only without gravity.
     pub net_mass: f64,
+    /// Where its buoyancy acts, from the mass centre in the body's frame, m.
+    pub buoyancy_at: [f64; 3],
     /// What brakes it.
     pub drag: Option<Drag>,
     /// What drives it.
@@ -94,6 +96,7 @@ impl SceneBody {
             total_mass: Mat3::diagonal(added.map(|added| mass + added)).0,
             total_inertia: Mat3::diagonal([0, 1, 2].map(|i| dry[i] + wet[i])).0,
             net_mass: net_mass(mass, shape.neutral_mass(density)),
+            buoyancy_at: [0.0; 3],
             drag: None,
             thrust: None,
             attitude: [1.0, 0.0, 0.0, 0.0],
@@ -119,6 +122,7 @@ impl SceneBody {
             total_mass,
             total_inertia,
             net_mass,
+            buoyancy_at: [0.0; 3],
             drag: None,
             thrust: None,
             attitude: [1.0, 0.0, 0.0, 0.0],
@@ -132,6 +136,12 @@ impl SceneBody {
             Form::Ellipsoid { semi_axes, .. } => Some(semi_axes),
             Form::Given { shape, .. } => shape,
         }
+    }
+
+    /// The mass of the displaced fluid times the point where its buoyancy acts, kg m; zero where the body's own mass is not known.
+    pub(crate) fn buoyancy_moment(&self) -> Vec3 {
+        let displaced = self.mass().map_or(0.0, |mass| mass - self.net_mass);
+        Vec3(self.buoyancy_at) * displaced
     }
 
     /// The body's own mass, kg; `None` where only the total one is known, with the added mass in it.

@@ -151,6 +151,12 @@ pub const KEYS: &[Key] = &[
          for warnings of overlap and the default of volume",
     ),
     key(
+        "body.buoyancy_at",
+        "an array of 3 finite numbers, in m",
+        "the mass centre",
+        "where the buoyancy acts, from the mass centre in the body's frame",
+    ),
+    key(
         "body.drag",
         "a table { linear, quadratic, angular_linear, angular_quadratic, smooth_below }",
         "none",

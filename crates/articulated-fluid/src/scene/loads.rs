@@ -46,6 +46,18 @@ fn servo(table: &Table, kind: &JointKind) -> Result<Servo, SceneError> {
     })
 }
 
+/// Where the buoyancy of a body acts.
+pub(super) fn buoyancy_at(table: &Table, has_mass: bool) -> Result<[f64; 3], SceneError> {
+    match table.get("buoyancy_at") {
+        Some(value) if !has_mass => {
+            let what = "the mass of the displaced fluid is not known; expected mass and volume, or semi_axes";
+            Err(value.fail(what))
+        }
+        Some(value) => value.array(),
+        None => Ok([0.0; 3]),
+    }
+}
+
 /// The drag of a body.
 pub(super) fn drag(table: &Table) -> Result<Option<Drag>, SceneError> {
     let Some(value) = table.get("drag") else {

@@ -43,7 +43,7 @@ fn unknown_keys_are_refused_with_the_allowed_ones() {
             "mas = 90",
             "f.toml:10:1: body.mas: unknown key; expected one of `name`, `semi_axes`, `mass`, \
              `inertia`, `added_mass`, `added_inertia`, `volume`, `total_mass`, `total_inertia`, \
-             `shape`, `drag`, `thrust`, `attitude`, `angular_velocity`, `joint_rate`",
+             `shape`, `buoyancy_at`, `drag`, `thrust`, `attitude`, `angular_velocity`, `joint_rate`",
         ),
         (
             "density = 1000",

@@ -5,6 +5,7 @@ mod by_duals;
 mod laws;
 mod loads;
 mod planar;
+mod published;
 mod strokes;
 mod trees;
 mod vectors;

@@ -105,6 +105,8 @@ fn tree((told, held): Told, loaded: bool) -> Tree {
         model = model
             .with_gravity(Vec3([0.3, -0.4, -2.0]), &net)
             .expect("a weight");
+        let moments: Vec<Vec3> = told.iter().map(|(.., x)| vec3(&x[35..38]) * 0.3).collect();
+        model = model.with_buoyancy(&moments).expect("points");
         model = model.with_stiffness(&stiffnesses).expect("springs");
     }
     let mut state = State {
