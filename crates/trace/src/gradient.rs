@@ -292,3 +292,75 @@ impl<'a> Sweep<'a> {
         self.graph.select([self.zero, x], self.one, y)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use lie::Scalar;
+
+    use crate::walk::visits;
+    use crate::{Graph, Program, record};
+
+    /// A chain of `n` masses: each is tied to the next, and its inertia depends on its place.
+    fn chain<S: Scalar>(x: &[S], v: &[S]) -> S {
+        let half = S::from_f64(0.5);
+        let kinetic = x.iter().zip(v).fold(S::zero(), |sum, (x, v)| {
+            sum + *v * *v * (S::one() + *x * *x)
+        });
+        let stretch = x
+            .windows(2)
+            .fold(S::zero(), |sum, x| sum + Scalar::cos(x[1] - x[0]));
+        kinetic * half + stretch
+    }
+
+    /// Nodes of the graph, nodes visited on the way and instructions, with all derivatives that mechanics asks for.
+    fn costs(n: usize) -> [usize; 3] {
+        let mut graph = Graph::default();
+        let mut instructions = 0;
+        let visited = visits(|| {
+            graph = record(2 * n, |x| vec![chain(&x[..n], &x[n..])]).unwrap();
+            let inputs = graph.inputs();
+            let mut wanted = graph.gradient(graph.outputs()[0], &inputs);
+            let momenta = wanted[n..].to_vec();
+            let (pattern, masses) = graph.jacobian(&momenta, &inputs[n..]);
+            assert_eq!(pattern.entries(), n);
+            let products = graph.hessian_vector(&momenta, &inputs[..n], &inputs);
+            wanted.extend(masses.into_iter().chain(products));
+            instructions = Program::new(&graph, &wanted).instructions();
+        });
+        [graph.len(), visited, instructions]
+    }
+
+    /// Twice the size costs twice as much, by counting.
+    #[test]
+    fn the_cost_is_linear_in_the_size() {
+        let [few, some, many] = [50, 100, 200].map(costs);
+        for (k, few) in few.into_iter().enumerate() {
+            assert!(
+                many[k] - some[k] <= 2 * (some[k] - few) + 2,
+                "{few} {} {}",
+                some[k],
+                many[k]
+            );
+            assert!(few > 0);
+        }
+    }
+
+    /// A gradient costs a few values, however many variables there are.
+    #[test]
+    fn a_gradient_costs_a_few_values() {
+        let n = 100;
+        let mut graph = record(2 * n, |x| vec![chain(&x[..n], &x[n..])]).unwrap();
+        let (root, inputs) = (graph.outputs().to_vec(), graph.inputs());
+        let value = Program::new(&graph, &root).instructions();
+        let slopes = graph.gradient(root[0], &inputs);
+        let gradient = Program::new(&graph, &slopes).instructions();
+        assert!(gradient <= 3 * value, "{gradient} {value}");
+    }
+
+    #[test]
+    fn the_square_has_the_slope_two_x() {
+        let mut graph = record(1, |x| vec![x[0] * x[0]]).unwrap();
+        let slope = graph.gradient(graph.outputs()[0], &graph.inputs());
+        assert_eq!(Program::new(&graph, &slope).instructions(), 1);
+    }
+}
