@@ -40,6 +40,7 @@
 #![forbid(unsafe_code)]
 
 mod build;
+mod call;
 mod degree;
 mod error;
 mod gradient;

@@ -22,6 +22,20 @@ proptest! {
         prop_assert_eq!(first, second);
     }
 
+    /// A formula of the numbers of another one.
+    #[test]
+    fn a_graph_called_by_another_is_their_composition(inner in steps(ALL, 4..20), outer in steps(ALL, 1..20), x in points()) {
+        let (mut graph, other) = (graph_of(&inner), graph_of(&outer));
+        let arguments: Vec<_> = graph.outputs().iter().rev().take(INPUTS).copied().collect();
+        let called = graph.call(&other, &arguments, other.outputs());
+        let mut inputs = numbers(&inner, &x);
+        inputs.reverse();
+        let expected = numbers(&outer, &inputs[..INPUTS]);
+        for (expected, value) in expected.into_iter().zip(values(&graph, &called, &x)) {
+            prop_assert!(same(expected, value), "{expected} {value}");
+        }
+    }
+
     #[test]
     fn a_graph_is_read_back_as_it_was(steps in steps(ALL, 1..40)) {
         let graph = graph_of(&steps);
