@@ -3,7 +3,7 @@
 use thiserror::Error;
 use trace::TraceError;
 
-/// Why a Lagrangian has no [`TracedSystem`].
+/// Why a Lagrangian has no [`TracedSystem`](crate::TracedSystem).
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TracedError {
