@@ -71,8 +71,8 @@ pub use system::{
     Adjoint, AdjointWorkspace, Context, ContinuousSystem, Derivatives, DiscreteForce,
     DiscreteLagrangian, Discretised, DiscretisedWorkspace, Force, Forced, ForcedWorkspace,
     HamiltonianSystem, Lagrangian, LeftTranslation, LegendreWorkspace, Pair, Quadrature,
-    RightTranslation, ShapeError, State, Still, Symmetry, System, legendre_minus, legendre_plus,
-    momentum_map,
+    RightTranslation, ShapeError, State, Still, Symmetry, System, TracedError, TracedSystem,
+    TracedWorkspace, legendre_minus, legendre_plus, momentum_map,
 };
 pub use variation::{FirstVariation, Variation, symplectic_form};
 pub use variational::Variational;

@@ -15,6 +15,7 @@ mod quadrature;
 mod shape;
 mod state;
 mod symmetry;
+mod traced;
 
 pub use adjoint::{Adjoint, AdjointWorkspace};
 pub(crate) use context::{Algebra, Dual};
@@ -32,3 +33,4 @@ pub use shape::ShapeError;
 pub use state::{Pair, State, Still};
 pub(crate) use symmetry::generator;
 pub use symmetry::{LeftTranslation, RightTranslation, Symmetry, momentum_map};
+pub use traced::{TracedError, TracedSystem, TracedWorkspace};

@@ -14,5 +14,6 @@ mod naive;
 mod parameters;
 mod pilot;
 mod shapes;
+mod traced;
 mod variational;
 mod variations;
