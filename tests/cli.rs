@@ -851,7 +851,7 @@ fn another_scene_than_the_papers_is_run_at_an_accuracy() {
     }
     let summary = run(&[&other]);
     for words in [
-        "1e-6 the default for this scene",
+        "1e-6 by default for this scene",
         "more steps",
         "--method lgvi --step 0.001",
     ] {

@@ -48,6 +48,9 @@ pub enum CliError {
     #[error("interrupted; nothing was written")]
     Stopped { signal: usize },
     #[cfg(feature = "chart")]
+    #[error("all bodies move as told: no method has anything to solve; lgvi run tells the work")]
+    NothingToSolve,
+    #[cfg(feature = "chart")]
     #[error(transparent)]
     Reference(#[from] UnknownReference),
     #[error("no thread can be started: {0}")]
@@ -109,7 +112,7 @@ impl CliError {
                 _ => USAGE,
             },
             #[cfg(feature = "chart")]
-            Self::Parameter(_) | Self::StepBeyondEnd { .. } => USAGE,
+            Self::Parameter(_) | Self::StepBeyondEnd { .. } | Self::NothingToSolve => USAGE,
             Self::Interrupted { signal, .. } => signalled(*signal),
             #[cfg(feature = "chart")]
             Self::Stopped { signal } => signalled(*signal),

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use articulated_fluid::scene::Overlaps;
 use articulated_fluid::{Scene, Smallest};
+#[cfg(feature = "chart")]
+use lie::VectorSpace;
 
 use super::error::CliError;
 use super::print;
@@ -35,6 +37,16 @@ impl Loaded {
 }
 
 impl Loaded {
+    /// Refuses to compare methods where there is nothing to solve, or where its tables do not tell the whole run.
+    #[cfg(feature = "chart")]
+    pub fn check_methods(&self, until: f64) -> Result<(), CliError> {
+        let start = &self.smallest.start;
+        match start.mu.dim() {
+            0 => Err(CliError::NothingToSolve),
+            _ => Ok(sim::check_told(&self.smallest.model, until)?),
+        }
+    }
+
     /// Whether it is the paper's scene, from a file or built in.
     pub fn is_papers(&self) -> bool {
         let papers = Scene::parse(BUILT_IN, BUILT_IN_NAME);

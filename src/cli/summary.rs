@@ -72,10 +72,11 @@ impl<'a> Summary<'a> {
             none if none.is_empty() => none,
             some => format!(" (reductions: {some})"),
         };
-        let model = format!(
-            "{}, {} unknowns a step{without}",
-            report.group, report.unknowns
-        );
+        let unknowns = match report.unknowns {
+            1 => "1 unknown".to_owned(),
+            count => format!("{count} unknowns"),
+        };
+        let model = format!("{}, {unknowns} a step{without}", report.group);
         let mut rows = vec![];
         if let Some(title) = &report.title {
             rows.push(("scene", one_line(title)));
@@ -116,7 +117,7 @@ impl<'a> Summary<'a> {
             let checked = more(report.accuracy_check_steps.unwrap_or(0));
             let (chosen, papers) = match self.origin.is_chosen {
                 true => (
-                    "the default for this scene",
+                    "by default for this scene",
                     "; the paper's is --method lgvi --step 0.001",
                 ),
                 false => ("asked for", ""),

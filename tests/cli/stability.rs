@@ -162,3 +162,46 @@ fn a_driven_fish_has_good_steps() {
     assert!(told.contains("energy is not judged"), "{told}");
     assert!(told.contains("4 runs: 4 good"), "{told}");
 }
+
+/// What is told, whatever is compared: where all moves as told, and where a table ends before the run.
+#[test]
+fn methods_are_not_compared_where_they_solve_nothing_or_beyond_a_table() {
+    let directory = directory();
+    let scene = |motion: &str| {
+        format!(
+            "fluid.density = 0
+             body = [{{ name = 'a', mass = 1, inertia = [1, 1, 1] }}{}]
+             joint = [{{ parent = 'world', child = 'a', at_parent = [0, 0, 0], at_child = [0, 0, 0], {motion} }}{}]",
+            if motion.contains("file") { ", { name = 'b', mass = 1, inertia = [1, 1, 1] }" } else { "" },
+            if motion.contains("file") { ", { parent = 'a', child = 'b', at_parent = [1, 0, 0], at_child = [0, 0, 1] }" } else { "" },
+        )
+    };
+    let write = |name: &str, text: &str| fs::write(directory.path().join(name), text).unwrap();
+    write(
+        "told.toml",
+        &scene("motion = { amplitude = [0, 0, 1], frequency = 1 }"),
+    );
+    write(
+        "ends.toml",
+        &scene("type = 'hinge', axis = [0, 0, 1], motion = { file = 'ends.csv' }"),
+    );
+    write("ends.csv", "t,angle\n0,0\n0.5,1\n1,0\n");
+    for command in ["chart", "stability"] {
+        for (name, words) in [
+            ("told.toml", "all bodies move as told"),
+            ("ends.toml", "told from 0 s to 1 s"),
+        ] {
+            let output = lgvi(directory.path(), &[command, name, "--until", "2"]);
+            assert_eq!(output.status.code(), Some(2), "{command} {name}");
+            assert!(
+                text(&output.stderr).contains(words),
+                "{}",
+                text(&output.stderr)
+            );
+        }
+    }
+    assert_eq!(
+        files(directory.path()),
+        ["ends.csv", "ends.toml", "told.toml"]
+    );
+}

@@ -80,7 +80,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(args.scene.as_deref())?;
     loaded.warn_of_overlaps();
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
-    sim::check_told(&loaded.smallest.model, args.until)?;
+    loaded.check_methods(args.until)?;
     let files = Files::begin(&args.out, args.scene.as_deref())?;
     let problem = Arc::new(Problem {
         model: loaded.smallest.model.clone(),

@@ -108,7 +108,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     loaded.warn_of_overlaps();
     let grid = args.grid()?;
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
-    sim::check_told(&loaded.smallest.model, args.until)?;
+    loaded.check_methods(args.until)?;
     let files = Files::begin(&args.out, args.scene.as_deref())?;
     let title = title(&loaded, args);
     let Mapped { map, drawn } = mapped(args, grid, &loaded, &title, &interrupt)?;
