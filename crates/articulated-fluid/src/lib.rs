@@ -71,6 +71,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Loads and work
+//! Beside weight and springs there are torques, dampers and servos in joints ([`JointLoad`]), [`Drag`] and [`Thrust`] on bodies. Those in joints keep
+//! the momentum to rounding; with any of them a step is not symplectic. What drives and loads do is summed along a step's
+//! [`Path`](dvi::Path), at the order of its method: [`ArticulatedBody::drives`], [`ArticulatedBody::add_drives`].
+//!
 //! # Views of a scene
 //! [`Scene::smallest`] leaves out only what is exactly nothing. It steps a scene in other coordinates where these are better, by a
 //! [`View`]: on its heaviest body ([`Rerooted`]), beside its mass centre ([`Comoving`]), in a plane ([`planar`]). The states given out
