@@ -222,8 +222,9 @@ impl Scene {
     pub fn driven_joints(&self) -> impl Iterator<Item = &str> {
         let mount = self.mount.as_ref();
         let carried = mount.is_some_and(|mount| !mount.place.is_constant());
-        let driven =
-            move |(i, _, on): &(usize, &str, &Mobility)| on.kind.is_driven() || *i == 0 && carried;
+        let driven = move |(i, _, on): &(usize, &str, &Mobility)| {
+            on.kind.is_driven() || on.load.acts() || *i == 0 && carried
+        };
         self.on_joints().filter(driven).map(|(_, name, _)| name)
     }
 

@@ -15,6 +15,9 @@ fn follows(name: &str, h: f64, [states, works]: [f64; 2]) {
     assert!(r < 1e-14 && x < 1e-14, "{name} starts {r:e} and {x:e} off");
     let mut integrator = Gauss::new::<4>(model.clone());
     let (mut drives, mut work, mut steps) = (model.drives(), Evaluation::default(), 0);
+    let is_joint = |kind| matches!(kind, articulated_fluid::DriveKind::Joint { .. });
+    let of_joints = drives.iter().filter(|drive| is_joint(drive.kind));
+    assert_eq!(scene.driven_joints().count(), of_joints.count());
     let before = model.conserved(&state).expect("finite").energy;
     for told in case["at"].as_array().expect("states") {
         let t = told["t"].as_f64().expect("a time");

@@ -108,6 +108,9 @@ fn each_column_is_told_of_and_named_once() {
             assert!(header.iter().any(is_of), "{name}");
         }
     }
+    for name in ["b.work", "c.work", "drag_work", "thrust_work"] {
+        assert!(header.contains(&name), "{name}");
+    }
     let labels: Vec<_> = COLUMNS.iter().map(|column| column.label()).collect();
     assert_eq!(labels[1..4], ["x,y,z", "vx,vy,vz", "NAME.qw,.qx,.qy,.qz"]);
 }
