@@ -69,11 +69,7 @@ fn turn<S: Scalar>(moved: &Moved<S>) -> Mat3<S> {
 pub struct StepWorkspace<S = f64> {
     moved: Vec<Moved<S>>,
     expansion: Expansion<S>,
-    /// By the attitudes of all bodies.
-    d_f: Vec<Cotangent<3, S>>,
-    d_g: Vec<Cotangent<3, S>>,
-    /// Of the loads that are no gradient.
-    forces: Vec<Vec3<S>>,
+    by_body: ByBody<S>,
     /// $\mathbb I(g_k)$, factorised once a step, and $R_0$ there.
     inertia: Elimination<S>,
     r0: SO3<S>,
@@ -86,9 +82,7 @@ impl<S: Scalar> Default for StepWorkspace<S> {
         Self {
             moved: Vec::new(),
             expansion: Expansion::default(),
-            d_f: Vec::new(),
-            d_g: Vec::new(),
-            forces: Vec::new(),
+            by_body: ByBody::default(),
             inertia: Elimination::default(),
             r0: SO3::identity(),
             total_mass: Ldl3::identity(),
@@ -96,11 +90,21 @@ impl<S: Scalar> Default for StepWorkspace<S> {
     }
 }
 
-/// Storage of what is collected body by body.
-struct ByBody<'a, S> {
-    d_f: &'a mut Vec<Cotangent<3, S>>,
-    d_g: &'a mut Vec<Cotangent<3, S>>,
-    forces: &'a mut Vec<Vec3<S>>,
+/// What is collected body by body.
+#[derive(Clone, Debug)]
+struct ByBody<S> {
+    /// By the attitudes of all bodies.
+    d_f: Vec<Cotangent<3, S>>,
+    d_g: Vec<Cotangent<3, S>>,
+    /// Of the loads that are no gradient.
+    forces: Vec<Vec3<S>>,
+}
+
+impl<S> Default for ByBody<S> {
+    fn default() -> Self {
+        let (d_f, d_g, forces) = (Vec::new(), Vec::new(), Vec::new());
+        Self { d_f, d_g, forces }
+    }
 }
 
 impl ArticulatedBody {
@@ -144,7 +148,7 @@ impl ArticulatedBody {
             d_f: own_f,
             d_g: own_g,
             forces,
-        }: ByBody<S>,
+        }: &mut ByBody<S>,
         out: &mut Derivatives<Configuration, S>,
     ) {
         let Derivatives { d_f, d_g, .. } = out;
@@ -273,13 +277,9 @@ impl DiscreteLagrangian for ArticulatedBody {
     ) {
         let step = self.step((at.t, h), g, (&f.0, &f.2), &mut work.expansion);
         self.displace(step, &mut work.moved);
-        let by_body = ByBody {
-            d_f: &mut work.d_f,
-            d_g: &mut work.d_g,
-            forces: &mut work.forces,
-        };
         let shift = (self.base_shift(step, f), h);
-        self.collect((at.t, g), step, shift, &mut work.moved, by_body, out);
+        let (moved, by_body) = (&mut work.moved, &mut work.by_body);
+        self.collect((at.t, g), step, shift, moved, by_body, out);
     }
 
     fn is_defined(&self, t: f64, _: &Configuration, _: &Still<Configuration>) -> bool {
@@ -339,11 +339,7 @@ impl DiscreteLagrangian for ArticulatedBody {
             shift = work.total_mass.solve(rest);
             (f.1[0], c.1[0]) = (shift.into(), shift.into());
         }
-        let by_body = ByBody {
-            d_f: &mut work.d_f,
-            d_g: &mut work.d_g,
-            forces: &mut work.forces,
-        };
-        self.collect((*t, g), step, (shift, h), &mut work.moved, by_body, out);
+        let (moved, by_body) = (&mut work.moved, &mut work.by_body);
+        self.collect((*t, g), step, (shift, h), moved, by_body, out);
     }
 }

@@ -4,7 +4,7 @@ use dvi::{Context, ContinuousSystem, Path, State};
 use lie::{LieGroup, Vec3};
 
 use crate::lagrangian::Evaluation;
-use crate::loads::Scenery;
+use crate::loads::{OnBody, Scenery, Twist};
 use crate::tree::{ArticulatedBody, Configuration};
 
 /// What does work that is no gradient's.
@@ -23,9 +23,9 @@ pub enum DriveKind {
 
 /// What the drive of a joint, or of the place of the first one, or a load, has done along a motion.
 ///
-/// A drive that turns a body at the rate $a$ against its parent, about its joint, with the torque $\lambda$ does the work $\int \lambda \cdot a\,dt$. In the
-/// reference frame $\lambda = \dot N - T$ with the angular momentum $N$ about the joint of all that moves with the body, and the torque $T$ on that which the
-/// model has without a drive. A place moves the linear momentum likewise.
+/// A drive turns a body at the rate $a$ against its parent, about its joint, with the torque $\lambda$. Its work is
+/// $\int \lambda \cdot a\,dt$, and in the reference frame $\lambda = \dot N - T$. $N$ is the angular momentum about the joint of all that
+/// moves with the body. $T$ is the torque on that without a drive. A place moves the linear momentum likewise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     /// What it is.
@@ -56,11 +56,17 @@ impl Port {
             load,
         }
     }
-}
 
-impl Port {
-    /// Of what is known by its power alone.
-    fn of_power(power: f64) -> Self {
+    /// Of forces on bodies, which are known by their power alone.
+    fn on_bodies(
+        wrenches: impl Iterator<Item = OnBody<f64>>,
+        twist: impl Fn(usize) -> Twist<f64>,
+    ) -> Self {
+        let power = wrenches.map(|(i, [force, moment])| {
+            let [omega, v] = twist(i);
+            force.dot(v) + moment.dot(omega)
+        });
+        let power: f64 = power.sum();
         Self {
             rate: Vec3([power, 0.0, 0.0]),
             momentum: Vec3::zero(),
@@ -77,8 +83,9 @@ impl ArticulatedBody {
     pub fn drives(&self) -> Vec<Drive> {
         let forces = &self.loads.forces;
         let driven = |body: &usize| {
-            let is_loaded = forces.joints.iter().any(|joint| joint.child == *body);
-            is_loaded || self.is_turned(*body) || *body == 0 && self.is_carried()
+            forces.in_joint(*body).is_some()
+                || self.is_turned(*body)
+                || *body == 0 && self.is_carried()
         };
         let bodies = (0..self.nodes.len()).filter(driven);
         let joints = bodies.map(|body| DriveKind::Joint { body });
@@ -138,23 +145,23 @@ impl ArticulatedBody {
         let twist = |i: usize| elimination.twist(i);
         let forces = &self.loads.forces;
         let port = |drive: &Drive| match drive.kind {
-            DriveKind::Drag => [Port::of_power(forces.drag_power(twist)), Port::unused()],
-            DriveKind::Thrust => [
-                Port::of_power(forces.thrust_power(*t, twist)),
-                Port::unused(),
-            ],
+            DriveKind::Drag => [Port::on_bodies(forces.drag(twist), twist), Port::unused()],
+            DriveKind::Thrust => [Port::on_bodies(forces.thrust(*t), twist), Port::unused()],
             DriveKind::Joint { body: i } => {
-                let turn = match (self.is_turned(i), forces.in_joint(i, at, twist)) {
+                let turn = match (self.is_turned(i), forces.in_joint(i)) {
                     (true, _) => Port {
                         rate: r[i].rotate(pose.rates[i]),
                         momentum: r[i].rotate(momenta[i]),
                         load: r[i].rotate(torques[i].vec3()),
                     },
-                    (false, Some(load)) => Port {
-                        rate: r[i].rotate(load.rate),
-                        momentum: Vec3::zero(),
-                        load: -r[i].rotate(load.torque),
-                    },
+                    (false, Some(joint)) => {
+                        let load = joint.act(at, twist);
+                        Port {
+                            rate: r[i].rotate(load.rate),
+                            momentum: Vec3::zero(),
+                            load: -r[i].rotate(load.torque),
+                        }
+                    }
                     (false, None) => Port::unused(),
                 };
                 let place = match i == 0 && self.is_carried() {

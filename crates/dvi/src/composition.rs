@@ -213,10 +213,27 @@ impl<L: DiscreteLagrangian> Half<'_, L> {
         }
     }
 
-    fn peek(self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
+    fn step_along(
+        self,
+        state: &mut State<L::Group>,
+        h: f64,
+        see: &mut dyn FnMut(Path<L::Group>),
+    ) -> Result<StepReport, StepError> {
         match self {
-            Self::Method(method) => method.peek(state, h),
-            Self::Adjoint(adjoint) => adjoint.peek(state, h),
+            Self::Method(method) => method.step_along(state, h, see),
+            Self::Adjoint(adjoint) => adjoint.step_along(state, h, see),
+        }
+    }
+
+    fn peek_along(
+        self,
+        state: &State<L::Group>,
+        h: f64,
+        see: &mut dyn FnMut(Path<L::Group>),
+    ) -> Result<State<L::Group>, StepError> {
+        match self {
+            Self::Method(method) => method.peek_along(state, h, see),
+            Self::Adjoint(adjoint) => adjoint.peek_along(state, h, see),
         }
     }
 }
@@ -250,12 +267,7 @@ impl<L: DiscreteLagrangian> Integrator for Composition<L> {
         h: f64,
         see: &mut dyn FnMut(Path<L::Group>),
     ) -> Result<StepReport, StepError> {
-        self.each_part(state, h, |half, state, h| {
-            let start = state.clone();
-            let report = half.step(state, h)?;
-            see(Path::between(&[start, state.clone()], h));
-            Ok(report)
-        })
+        self.each_part(state, h, |half, state, h| half.step_along(state, h, see))
     }
 
     /// By looking ahead with each part: none of them counts a step.
@@ -267,9 +279,7 @@ impl<L: DiscreteLagrangian> Integrator for Composition<L> {
     ) -> Result<State<L::Group>, StepError> {
         let (mut ahead, steps) = (state.clone(), self.steps);
         let peeked = self.each_part(&mut ahead, h, |half, state, h| {
-            let ends = [state.clone(), half.peek(state, h)?];
-            see(Path::between(&ends, h));
-            [_, *state] = ends;
+            *state = half.peek_along(state, h, see)?;
             Ok(StepReport::default())
         });
         self.steps = steps;

@@ -112,7 +112,10 @@ impl Stage<'_> {
                 positive("time to run to, in seconds,", self.until)?;
                 Ok(Chosen {
                     method,
-                    step: self.on_model(DefaultStep(method, self.longest())),
+                    step: self.on_model(DefaultStep {
+                        method,
+                        longest: self.longest(),
+                    }),
                     checked: None,
                 })
             }
@@ -132,7 +135,10 @@ impl Stage<'_> {
     }
 
     fn accurate(&self, accuracy: f64) -> Result<Chosen, SimError> {
-        let (guess, spent) = self.on_model(Guess(accuracy, self.longest()))?;
+        let (guess, spent) = self.on_model(Guess {
+            accuracy,
+            longest: self.longest(),
+        })?;
         let make = |stages, tolerance| {
             let checked = Checked {
                 tolerance,
@@ -193,8 +199,12 @@ trait Ask {
     fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> Self::Answer;
 }
 
-/// The step that a method takes where none is given, with the longest easy step for what moves as told.
-struct DefaultStep(Method, f64);
+/// The step that a method takes where none is given.
+struct DefaultStep {
+    method: Method,
+    /// The longest easy step for what moves as told, s.
+    longest: f64,
+}
 
 /// The longest easy step of a [`Scout`] on the paper's scene, s.
 const PAPER: f64 = 0.1;
@@ -214,10 +224,10 @@ impl Ask for DefaultStep {
 
     fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> f64 {
         let scout = Scout::run(model, start, BEGINNING);
-        let easy = scout.step.unwrap_or(f64::INFINITY).min(self.1);
+        let easy = scout.step.unwrap_or(f64::INFINITY).min(self.longest);
         let ratio = easy / PAPER;
         let doublings = ratio.log2().round().clamp(DOUBLINGS[0], DOUBLINGS[1]);
-        let mut step = self.0.default_step() * doublings.exp2();
+        let mut step = self.method.default_step() * doublings.exp2();
         for _ in 0..HALVINGS {
             let solved = [start, &scout.fastest]
                 .into_iter()
@@ -234,13 +244,17 @@ impl Ask for DefaultStep {
 impl DefaultStep {
     /// Whether the first steps are solved.
     fn solves<M: Model>(&self, model: &M, start: &State<M::Group>, step: f64) -> bool {
-        let (mut integrator, mut state) = (self.0.integrator(model.clone()), start.clone());
+        let (mut integrator, mut state) = (self.method.integrator(model.clone()), start.clone());
         (0..TRIED).all(|_| integrator.step(&mut state, step).is_ok())
     }
 }
 
-/// Stages and step for an accuracy, not yet checked, and the steps that this took; with the longest easy step for what moves as told.
-struct Guess(f64, f64);
+/// Stages and step for an accuracy, not yet checked, and the steps that this took.
+struct Guess {
+    accuracy: f64,
+    /// As of a default step.
+    longest: f64,
+}
 
 /// The easy steps that a pilot run goes over.
 const PILOTED: f64 = 64.0;
@@ -258,11 +272,11 @@ impl Ask for Guess {
 
     fn ask<M: Model>(self, model: &M, start: &State<M::Group>, until: f64) -> Self::Answer {
         let scout = Scout::run(model, start, until);
-        let easy = scout.step.unwrap_or(until).min(self.1);
+        let easy = scout.step.unwrap_or(until).min(self.longest);
         let duration = until.min(PILOTED * easy);
-        let wanted = (PART * self.0 * duration / until).max(LEAST);
+        let wanted = (PART * self.accuracy * duration / until).max(LEAST);
         let pilot = match Pilot::run(model, &scout.fastest, duration, wanted) {
-            Err(PilotError::OutOfReach { best, .. }) if 20.0 * best < self.0 => {
+            Err(PilotError::OutOfReach { best, .. }) if 20.0 * best < self.accuracy => {
                 Pilot::run(model, &scout.fastest, duration, 20.0 * best)
             }
             found => found,
@@ -270,7 +284,7 @@ impl Ask for Guess {
         let candidate = |stages, step, tolerance| Candidate::new(stages, until, step, tolerance);
         match pilot {
             Ok(pilot) => {
-                let step = pilot.h.min(LONGEST * self.1);
+                let step = pilot.h.min(LONGEST * self.longest);
                 let guess = candidate(pilot.stages as u32, step, pilot.tolerance);
                 Ok((guess, scout.steps + pilot.steps))
             }

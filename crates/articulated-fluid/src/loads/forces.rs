@@ -34,10 +34,6 @@ impl JointLoad {
     }
 }
 
-fn power([omega, v]: Twist<f64>, [force, moment]: [Vec3; 2]) -> f64 {
-    force.dot(v) + moment.dot(omega)
-}
-
 /// A joint with a load.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LoadedJoint {
@@ -52,6 +48,7 @@ pub(crate) struct LoadedJoint {
 /// The loads that are no gradient.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Forces {
+    /// In the order of their children.
     pub(crate) joints: Vec<LoadedJoint>,
     pub(crate) drags: Vec<(usize, Drag)>,
     pub(crate) thrusts: Vec<(usize, Thrust)>,
@@ -67,6 +64,9 @@ pub(crate) struct Scenery<'a, S> {
 
 /// The rate and the velocity of the mass centre of a body, both in its frame.
 pub(crate) type Twist<S> = [Vec3<S>; 2];
+
+/// A body, with a force at its mass centre and a moment about it, both in its frame.
+pub(crate) type OnBody<S> = (usize, [Vec3<S>; 2]);
 
 /// The torque on the child of a joint, and the rate of the child on the parent, in the child's frame.
 pub(crate) struct InJoint<S> {
@@ -200,7 +200,7 @@ impl Forces {
         }
         work.clear();
         work.resize(tree.nodes.len(), Vec3::zero());
-        for (i, wrench) in self.on_bodies(at.t, twist) {
+        for (i, wrench) in self.drag(twist).chain(self.thrust(at.t)) {
             work[i] += wrench[0];
             add(i, wrench[1]);
         }
@@ -216,47 +216,30 @@ impl Forces {
         at.r[0].rotate(work[0]) * scale
     }
 
-    /// What the load in the joint of a body does.
-    pub(crate) fn in_joint(
-        &self,
-        child: usize,
-        at: Scenery<f64>,
-        twist: impl Fn(usize) -> Twist<f64>,
-    ) -> Option<InJoint<f64>> {
-        let joint = self.joints.iter().find(|joint| joint.child == child)?;
-        Some(joint.act(at, twist))
+    /// The load in the joint of a body.
+    pub(crate) fn in_joint(&self, child: usize) -> Option<&LoadedJoint> {
+        let found = self
+            .joints
+            .binary_search_by_key(&child, |joint| joint.child);
+        found.ok().map(|k| &self.joints[k])
     }
 
-    /// The power of all drag, W; never positive.
-    pub(crate) fn drag_power(&self, twist: impl Fn(usize) -> Twist<f64>) -> f64 {
-        let drags = self.drags.iter().map(|(i, drag)| {
-            let [omega, v] = twist(*i);
-            power([omega, v], drag.wrench(omega, v))
-        });
-        drags.sum()
-    }
-
-    /// The power of all thrust, W.
-    pub(crate) fn thrust_power(&self, t: f64, twist: impl Fn(usize) -> Twist<f64>) -> f64 {
-        let thrusts = self.thrusts.iter();
-        thrusts
-            .map(|(i, thrust)| power(twist(*i), thrust.wrench(t)))
-            .sum()
-    }
-
-    /// Force at the mass centre and moment about it, in the body's frame, of all that acts on bodies.
+    /// Of all drag: the body, the force at its mass centre and the moment about it, in its frame.
     #[inline(always)]
-    fn on_bodies<S: Scalar>(
+    pub(crate) fn drag<S: Scalar>(
         &self,
-        t: S,
         twist: impl Fn(usize) -> Twist<S>,
-    ) -> impl Iterator<Item = (usize, [Vec3<S>; 2])> {
-        let drag = move |(i, drag): &(usize, Drag)| {
+    ) -> impl Iterator<Item = OnBody<S>> {
+        self.drags.iter().map(move |(i, drag)| {
             let [omega, v] = twist(*i);
             (*i, drag.wrench(omega, v))
-        };
+        })
+    }
+
+    /// The same of all thrust.
+    #[inline(always)]
+    pub(crate) fn thrust<S: Scalar>(&self, t: S) -> impl Iterator<Item = OnBody<S>> {
         let thrusts = self.thrusts.iter();
-        let thrusts = thrusts.map(move |(i, thrust)| (*i, thrust.wrench(t)));
-        self.drags.iter().map(drag).chain(thrusts)
+        thrusts.map(move |(i, thrust)| (*i, thrust.wrench(t)))
     }
 }

@@ -126,8 +126,8 @@ impl ArticulatedBody {
     /// The same bodies with these loads in their joints, in the order of [`with_stiffness`](Self::with_stiffness).
     ///
     /// # Errors
-    /// [`ModelError::Stiffnesses`] where there is not one for each joint; [`ModelError::Load`] where one is in a joint that leaves nothing free,
-    /// is of another kind of joint, or has a number that is negative or not finite.
+    /// [`ModelError::Stiffnesses`] where there is not one for each joint; [`ModelError::Load`] where a load does not suit its joint.
+    /// Then the joint leaves nothing free or is of another kind, or a number is negative or not finite.
     pub fn with_joint_loads(mut self, loads: &[JointLoad]) -> Result<Self, ModelError> {
         let first = usize::from(self.is_free());
         let (expected, found) = (self.nodes.len() - first, loads.len());

@@ -3,21 +3,16 @@
 use articulated_fluid::{Evaluation, Scene};
 use dvi::{Composition, Gauss, Integrator, Variational};
 
-use crate::vectors::{apart, numbers, scene, vectors};
+use crate::vectors::{apart, begin, numbers, scene};
 
 /// Follows the states and the works that are told.
 fn follows(name: &str, h: f64, [states, works]: [f64; 2]) {
-    let (scene, vectors) = (scene(name), vectors());
-    let case = &vectors[name];
-    let model = scene.model().expect("a model");
-    let mut state = scene.initial_state().expect("a state");
-    let [r, x] = apart(&model, &state, &case["start"]);
-    assert!(r < 1e-14 && x < 1e-14, "{name} starts {r:e} and {x:e} off");
+    let (model, mut state, case) = begin(name);
     let mut integrator = Gauss::new::<4>(model.clone());
     let (mut drives, mut work, mut steps) = (model.drives(), Evaluation::default(), 0);
     let is_joint = |kind| matches!(kind, articulated_fluid::DriveKind::Joint { .. });
     let of_joints = drives.iter().filter(|drive| is_joint(drive.kind));
-    assert_eq!(scene.driven_joints().count(), of_joints.count());
+    assert_eq!(scene(name).driven_joints().count(), of_joints.count());
     let before = model.conserved(&state).expect("finite").energy;
     for told in case["at"].as_array().expect("states") {
         let t = told["t"].as_f64().expect("a time");

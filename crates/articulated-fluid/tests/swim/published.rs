@@ -65,9 +65,9 @@ fn a_falling_sphere_comes_to_its_terminal_velocity() {
     );
 }
 
-/// N. E. Leonard, *Stability of a bottom-heavy underwater vehicle*, Automatica 33 (1997): a neutral vehicle with its buoyancy above its
-/// mass centre goes straight along its axis, which the fluid would turn it from, while the righting moment outweighs that of the fluid. With the
-/// momentum kept, $m g l > m_1 (m_3 - m_1) U^2 / m_3$.
+/// N. E. Leonard, *Stability of a bottom-heavy underwater vehicle*, Automatica 33 (1997): a neutral vehicle has its
+/// buoyancy above its mass centre, and goes straight along its axis. The fluid would turn it from that. It goes on while the righting moment
+/// outweighs the fluid's: with the momentum kept, $m g l > m_1 (m_3 - m_1) U^2 / m_3$.
 #[test]
 fn a_bottom_heavy_vehicle_is_stable_up_to_its_speed() {
     let scene = |l: f64, speed: f64| {

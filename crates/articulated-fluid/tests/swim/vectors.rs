@@ -53,13 +53,18 @@ pub fn apart(model: &ArticulatedBody, state: &State<Configuration>, told: &Value
     [off.fold(0.0, f64::max), (centre - vec3(&told["x"])).norm()]
 }
 
-fn follows(name: &str, h: f64) {
-    let (scene, vectors) = (scene(name), vectors());
-    let case = &vectors[name];
+/// The model of a scene, its start, which is the one that is told, and all that is told.
+pub fn begin(name: &str) -> (ArticulatedBody, State<Configuration>, Value) {
+    let (scene, case) = (scene(name), vectors()[name].take());
     let model = scene.model().expect("a model");
-    let mut state = scene.initial_state().expect("a state");
+    let state = scene.initial_state().expect("a state");
     let [r, x] = apart(&model, &state, &case["start"]);
     assert!(r < 1e-14 && x < 1e-14, "{name} starts {r:e} and {x:e} off");
+    (model, state, case)
+}
+
+fn follows(name: &str, h: f64) {
+    let (model, mut state, case) = begin(name);
     let start = model.conserved(&state).expect("finite");
     let energy = case["start"]["energy"].as_f64().expect("a number");
     assert!(

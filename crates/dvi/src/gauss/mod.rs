@@ -80,8 +80,6 @@ pub struct Gauss<C: ContinuousSystem> {
     /// Makes the work for the retraction that was chosen.
     make: MakeStepper<C>,
     work: Option<Box<dyn Stepper<C>>>,
-    /// Storage for what a step goes through.
-    along: Vec<State<C::Group>>,
 }
 
 impl<C: ContinuousSystem + 'static> Gauss<C> {
@@ -111,7 +109,6 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
             steps: 0,
             make: stepper::<C, Cayley>,
             work: None,
-            along: Vec::new(),
         }
     }
 
@@ -194,15 +191,14 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
 
     /// Shows the step that was solved last: its start, its stages, its end.
     fn show(
-        &mut self,
+        &self,
         (start, h): (&State<C::Group>, f64),
         end: &State<C::Group>,
         see: &mut dyn FnMut(Path<C::Group>),
     ) {
         let nodes = &self.tableau.nodes;
-        self.along.clear();
-        self.along.resize(nodes.len() + 2, start.clone());
-        for (i, (node, stage)) in nodes.iter().zip(&mut self.along[1..]).enumerate() {
+        let mut along = vec![start.clone(); nodes.len() + 2];
+        for (i, (node, stage)) in nodes.iter().zip(&mut along[1..]).enumerate() {
             stage.t = start.t + node * h;
             // A system without unknowns has no stages to solve.
             if let Some(work) = &self.work
@@ -211,8 +207,8 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
                 work.stage(i, stage);
             }
         }
-        self.along[nodes.len() + 1].copy_from(end);
-        see(Path::new(&self.tableau.rule, &self.along, h));
+        along[nodes.len() + 1].copy_from(end);
+        see(Path::new(&self.tableau.rule, &along, h));
     }
 
     /// Takes the step that was solved.

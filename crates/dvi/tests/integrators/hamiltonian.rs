@@ -95,7 +95,7 @@ fn a_degenerate_lagrangian_has_no_velocity() {
 
 /// A relativistic particle: speeds stay below one, and Newton's first correction does not.
 #[derive(Clone, Copy)]
-struct Relativistic;
+pub struct Relativistic;
 
 impl System for Relativistic {
     type Group = Rn<1>;

@@ -7,6 +7,7 @@ use dvi::{
 use lie::{Jet, LieGroup, Power, RealGroup, Rn, SO3, Scalar, Tangent, Vec3, VectorSpace};
 
 use crate::common::{Driven, Sinking, Top, distance, driven, sinking, top};
+use crate::hamiltonian::Relativistic;
 
 /// Two balls on a rod that swings: the first on a rail, its place and the rod's attitude; masses and gravity are parameters.
 #[derive(Clone, Copy)]
@@ -146,19 +147,6 @@ fn another_size_gives_no_numbers() {
         xi.max_magnitude().is_finite() && tau.max_magnitude().is_finite()
     };
     assert_eq!([2, 3, 1, 2].map(&mut finite), [true, false, false, true]);
-}
-
-/// A particle near the speed of light: no quadratic form.
-struct Relativistic;
-
-impl System for Relativistic {
-    type Group = Rn<1>;
-}
-
-impl Lagrangian for Relativistic {
-    fn value<S: Scalar>(&self, _: Context<S>, _: &Rn<1, S>, v: &Tangent<1, S>) -> S {
-        -(S::one() - v[0] * v[0]).sqrt()
-    }
 }
 
 #[test]
