@@ -120,15 +120,6 @@ impl ArticulatedBody {
     /// From the velocities of the bodies: of driven ones, half of $\langle \mu, \xi \rangle$ is not the kinetic energy, (S15).
     fn kinetic(&self, at: (&[SO3], &Pose<f64>), xi: &Velocity) -> f64 {
         let (rates, velocities) = self.body_velocities(at, xi);
-        let bodies = self
-            .nodes
-            .iter()
-            .zip(&self.masses)
-            .zip(rates)
-            .zip(velocities);
-        let twice = bodies.map(|(((node, mass), omega), v)| {
-            v.dot(mass.apply(v)) + omega.dot(node.j.apply(omega))
-        });
-        0.5 * twice.sum::<f64>()
+        0.5 * self.twice_kinetic(&rates, &velocities)
     }
 }

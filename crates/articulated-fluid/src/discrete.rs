@@ -16,7 +16,7 @@ use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 impl ArticulatedBody {
     /// (22), with the displacement of the first body $\Delta x$ in the reference frame and its position `x`.
     ///
-    /// With $E = F - I$, $B_i$ of (28) and $\mathrm{tr}[(I - F) J_d] = -\mathrm{tr}[E J_d]$.
+    /// With $E = F - I$, $B_i$ of (28) and $\mathrm{tr}[(I - F) J_d] = -\mathrm{tr}[E J_d]$; coupled inertia adds (S27).
     fn action<S: Scalar>(&self, t: S, g: &Configuration<S>, f: &Configuration<S>, h: S) -> S {
         let mut work = Expansion::default();
         let step = self.step((t, h), g, (&f.0, &f.2), &mut work);
@@ -35,6 +35,12 @@ impl ArticulatedBody {
             let turned = e.apply(node.at_self.lift());
             displacements.push(b - turned);
             sum += b.dot(mb).times(0.5) - mb.dot(turned) - e.trace_with(node.jd);
+            if self.is_coupled {
+                sum += (b - turned).dot(
+                    node.coupling
+                        .apply(step.turn(i).skew_vee() * S::from_f64(0.5)),
+                );
+            }
         }
         sum / h - h * self.potential((step.r, step.now), g)
     }
@@ -55,6 +61,14 @@ fn rotation_momentum<S: Scalar>(jd: Mat3, e: &Mat3<S>) -> Vec3<S> {
     (jd.lift::<S>() * *e).skew_vee()
 }
 
+/// $\frac12 (\mathrm{tr} F - F)\, C^T Y$ from $E = F - I$, (S27).
+#[inline(always)]
+fn coupled_rotation<S: Scalar>(coupling: Mat3, e: &Mat3<S>, y: Vec3<S>) -> Vec3<S> {
+    let x = coupling.transpose().apply(y);
+    let trace = S::from_f64(2.0) + e.trace();
+    (x * trace - *e * x) * S::from_f64(0.5)
+}
+
 /// What the derivatives need of a body, all in its own frame: the rows of $E_i = F_i - I$; the displacement of its joint,
 /// $B_i$ of (28); that of its centre, $Y_i = B_i - E_i d_{ip}$; and the sum of the momenta on the joints that it carries.
 type Moved<S> = [Vec3<S>; 6];
@@ -71,7 +85,7 @@ pub struct StepWorkspace<S = f64> {
     expansion: Expansion<S>,
     by_body: ByBody<S>,
     /// $\mathbb I(g_k)$, factorised once a step, and $R_0$ there.
-    inertia: Elimination<S>,
+    inertia: Elimination<S, true>,
     r0: SO3<S>,
     /// $\sum_i R_i M_i R_i^T$, to solve (31) for $\Delta x$.
     total_mass: Ldl3<S>,
@@ -130,10 +144,22 @@ impl ArticulatedBody {
     /// $\sum_i R_i M_i Y_i$ of these displacements.
     #[inline(always)]
     fn turning_momentum<S: Scalar>(&self, r: &[SO3<S>], moved: &[Moved<S>]) -> Vec3<S> {
-        let bodies = self.masses.iter().zip(moved).zip(r);
-        bodies.fold(Vec3::zero(), |sum, ((mass, moved), r)| {
-            sum + r.rotate(mass.apply(moved[4]))
+        let bodies = moved.iter().zip(r).enumerate();
+        bodies.fold(Vec3::zero(), |sum, (i, (moved, r))| {
+            let momentum = self.masses[i].apply(moved[4]);
+            sum + r.rotate(match self.is_coupled {
+                true => momentum + self.turned_momentum(i, moved),
+                false => momentum,
+            })
         })
+    }
+
+    /// $C_i w_i$ with $w = (F - F^T)^\vee / 2$, (S27).
+    #[inline(always)]
+    fn turned_momentum<S: Scalar>(&self, i: usize, moved: &Moved<S>) -> Vec3<S> {
+        self.nodes[i]
+            .coupling
+            .apply(turn(moved).skew_vee() * S::from_f64(0.5))
     }
 
     /// (29)–(33) from the displacements, to which that of the base is added: momenta, back from the leaves.
@@ -217,14 +243,19 @@ impl ArticulatedBody {
             let (e, [.., b, y, carried]) = (turn(&moved[i]), moved[i]);
             let shift = r[i].inverse_rotate(dx);
             let (b, y) = (b + shift, y + shift);
-            let (mb, my) = (self.masses[i].apply(b), self.masses[i].apply(y));
+            let (mut mb, mut my) = (self.masses[i].apply(b), self.masses[i].apply(y));
+            let mut turned = rotation_momentum(node.jd, &e);
+            if self.is_coupled {
+                let own = self.turned_momentum(i, &moved[i]);
+                (mb, my) = (mb + own, my + own);
+                turned += coupled_rotation(node.coupling, &e, y);
+            }
             let joint = node
                 .at_self
                 .lift::<S>()
                 .cross(f[i].inverse_rotate(mb + carried));
-            let turned = rotation_momentum(node.jd, &e) - joint;
             let slot = &mut d_f[i];
-            *slot = ((slot.vec3() + turned) * inverse_h).into();
+            *slot = ((slot.vec3() + turned - joint) * inverse_h).into();
             let slot = &mut d_g[i];
             *slot = ((slot.vec3() + my.cross(b)) * inverse_h).into();
             let on_joint = r[i].rotate(my + carried);
@@ -287,9 +318,10 @@ impl DiscreteLagrangian for ArticulatedBody {
     }
 
     #[inline(always)]
-    fn factorise(&self, t: f64, g: &Configuration, work: &mut StepWorkspace) {
+    fn factorise(&self, (t, h): (f64, f64), g: &Configuration, work: &mut StepWorkspace) {
         let (r, pose) = self.pose(t, g, &mut work.expansion.now);
         work.r0 = r[0];
+        work.inertia.resist(self, h);
         work.inertia.factorise(self, r, &pose.c);
         if self.is_free() {
             work.total_mass = self.total_mass(r).ldl();

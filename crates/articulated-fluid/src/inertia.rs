@@ -11,30 +11,54 @@ use crate::loads::Twist;
 use crate::pose::Drive;
 use crate::tree::{ArticulatedBody, Identity, Momentum, Velocity};
 
-/// The inertia at a configuration, factorised, with the storage for solves.
+/// The inertia at a configuration, factorised, with the storage for solves; with dampers in the matrix of a step, (S23), where `DAMPED`.
 #[derive(Clone, Debug)]
-pub(crate) struct Elimination<S = f64> {
+pub(crate) struct Elimination<S = f64, const DAMPED: bool = false> {
     /// What the links were made for.
     tree: Option<Identity>,
     links: Vec<Link<S>>,
     hinges: Vec<HingeFactors<S>>,
     /// $M_0^\ast$ of a free base.
     base: Ldl3<S>,
+    /// $h d$ of each joint; empty without dampers.
+    resistances: Vec<S>,
 }
 
-impl<S: Scalar> Default for Elimination<S> {
+impl<S: Scalar, const DAMPED: bool> Default for Elimination<S, DAMPED> {
     fn default() -> Self {
         Self {
             tree: None,
             links: Vec::new(),
             hinges: Vec::new(),
             base: Ldl3::identity(),
+            resistances: Vec::new(),
+        }
+    }
+}
+
+impl<S: Scalar> Elimination<S, true> {
+    /// Puts the dampers of a step of `h` into the matrix, (S23), which is factorised after this.
+    pub(crate) fn resist(&mut self, tree: &ArticulatedBody, h: S) {
+        self.resistances.clear();
+        let joints = tree.loads.forces.joints.iter();
+        for joint in joints.filter(|joint| joint.load.resistance() != 0.0) {
+            self.resistances.resize(tree.nodes.len(), S::zero());
+            self.resistances[joint.child] = h.times(joint.load.resistance());
         }
     }
 }
 
 /// Masses and momenta, from the leaves to the first body.
-impl<S: Scalar> Elimination<S> {
+impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
+    /// $h d$ of the joint of body `i`.
+    #[inline(always)]
+    fn resistance(&self, i: usize) -> Option<S> {
+        match DAMPED {
+            true => self.resistances.get(i).copied(),
+            false => None,
+        }
+    }
+
     /// Makes a link for each body.
     #[inline(always)]
     fn prepare(&mut self, tree: &ArticulatedBody) {
@@ -67,11 +91,15 @@ impl<S: Scalar> Elimination<S> {
         if node.is_last_sibling {
             self.links[node.parent].reset(&tree.nodes[node.parent], &tree.masses[node.parent]);
         }
-        tree.eliminate_mass(i, &mut self.links[i], &mut self.hinges);
+        let resistance = self.resistance(i);
+        tree.eliminate_mass(i, resistance, &mut self.links[i], &mut self.hinges);
         let (parent, link) = self.joint(i, node.parent);
         if node.role.is_root() {
             link.c = r[node.parent].matrix().transpose() * *r[i].matrix();
-            parent.carry_mass(link, node.lever.lift());
+            match resistance {
+                None => parent.carry_mass(link, node.lever.lift()),
+                Some(by) => parent.carry_inertia(&link.resisted(by), node.lever.lift()),
+            }
         } else {
             link.c = *c[i].matrix();
             parent.carry_inertia(link, node.lever.lift());
@@ -80,7 +108,8 @@ impl<S: Scalar> Elimination<S> {
 
     #[inline(always)]
     fn factorise_base(&mut self, tree: &ArticulatedBody) {
-        tree.eliminate_mass(0, &mut self.links[0], &mut self.hinges);
+        let resistance = self.resistance(0);
+        tree.eliminate_mass(0, resistance, &mut self.links[0], &mut self.hinges);
         if tree.is_free() {
             self.base = self.links[0].mass.ldl();
         }
@@ -120,10 +149,14 @@ impl<S: Scalar> Elimination<S> {
     ) {
         let node = &tree.nodes[i];
         tree.eliminate_force(i, (drive, mu), &mut self.links[i], &mut self.hinges);
+        let resistance = self.resistance(i);
         let (parent, link) = self.joint(i, node.parent);
         match node.role.is_root() {
             true => parent.carry_force(link, node.lever.lift()),
-            false => parent.carry_wrench(link, node.lever.lift()),
+            false => return parent.carry_wrench(link, node.lever.lift()),
+        }
+        if let Some(by) = resistance {
+            parent.w += link.c * (link.w * by);
         }
     }
 
@@ -175,17 +208,21 @@ impl<S: Scalar> Elimination<S> {
 }
 
 /// Velocities, from the first body to the leaves.
-impl<S: Scalar> Elimination<S> {
+impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
     /// The velocity of body `i`'s joint, from its parent's velocity; then its own. What the parent hands on is returned.
     #[inline(always)]
     fn advance(&mut self, tree: &ArticulatedBody, i: usize, drive: Drive<S>) -> (Vec3<S>, Vec3<S>) {
         let node = &tree.nodes[i];
+        let resistance = self.resistance(i);
         let (parent, link) = self.joint(i, node.parent);
         let u = parent.joint_velocity(link, node.at_parent.lift());
-        let turning = match node.role.is_root() {
+        let turning = match node.role.is_root() && resistance.is_none() {
             true => Vec3::zero(),
             false => link.c.transpose_mul(parent.omega),
         };
+        if let Some(by) = resistance.filter(|_| node.role.is_root()) {
+            link.w += link.ldl.solve(turning * by);
+        }
         let handed = (turning, u);
         tree.advance(i, handed, drive, &mut self.links[i], &mut self.hinges);
         handed
@@ -243,13 +280,13 @@ impl<S: Scalar> Elimination<S> {
             false => r0.inverse_rotate(drive.place),
         };
         let base = &self.links[0];
-        tau[0] = tree.masses[0].apply(base.v).cross(u).into();
+        tau[0] = tree.momentum(0, base.omega, base.v).cross(u).into();
         tree.force_on_joint(0, (Vec3::zero(), u), base, &mut self.hinges);
         for i in 1..self.links.len() {
             let (turning, u) = self.advance(tree, i, drive);
             self.write(tree, i, xi);
             let (node, link) = (&tree.nodes[i], &self.links[i]);
-            let momentum = tree.masses[i].apply(link.v);
+            let momentum = tree.momentum(i, link.omega, link.v);
             tau[i] = momentum.cross(u).into();
             let force = tree.force_on_joint(i, (turning, u), link, &mut self.hinges);
             let on_parent = link.c * force;
@@ -280,6 +317,16 @@ impl<S: Scalar> Elimination<S> {
 }
 
 impl ArticulatedBody {
+    /// $M_i V_i + C_i \Omega_i$.
+    #[inline(always)]
+    pub(crate) fn momentum<S: Scalar>(&self, i: usize, omega: Vec3<S>, v: Vec3<S>) -> Vec3<S> {
+        let momentum = self.masses[i].apply(v);
+        match self.is_coupled {
+            true => momentum + self.nodes[i].coupling.apply(omega),
+            false => momentum,
+        }
+    }
+
     /// $\sum_i R_i M_i R_i^T$: the slope of the linear momentum in $\dot x$, and that of (31) in $\Delta x / h$.
     #[inline(always)]
     pub(crate) fn total_mass(&self, r: &[SO3]) -> Sym3 {

@@ -203,24 +203,39 @@ impl ArticulatedBody {
         moved
     }
 
+    /// Twice the kinetic energy of these rates and velocities, (6), and that of coupled inertia, (S26).
+    #[inline(always)]
+    pub(crate) fn twice_kinetic<S: Scalar>(&self, rates: &[Vec3<S>], velocities: &[Vec3<S>]) -> S {
+        let mut twice = S::zero();
+        for (i, node) in self.nodes.iter().enumerate() {
+            let (omega, v) = (rates[i], velocities[i]);
+            twice += v.dot(self.masses[i].apply(v)) + omega.dot(node.j.apply(omega));
+            if self.is_coupled {
+                twice += v.dot(node.coupling.apply(omega)).times(2.0);
+            }
+        }
+        twice
+    }
+
     /// $\sum_i R_i M_i R_i^T$ at the time 0.
     pub(crate) fn total_mass_of(&self, g: &Configuration) -> Sym3 {
         self.total_mass(self.pose(0.0, g, &mut Pose::default()).0)
     }
 
     /// With $F_i = M_i V_i + \sum_k C_k F_k$: the total $p_x = R_0 F_0$ and
-    /// $p_i = J_i \Omega_i - d_{ip} \times F_i + \sum_k d_{ik} \times C_k F_k$.
+    /// $p_i = J_i \Omega_i - d_{ip} \times F_i + \sum_k d_{ik} \times C_k F_k$; coupled inertia adds to both, (S26).
     pub(crate) fn body_momenta(
         &self,
         (r, pose): (&[SO3], &Pose<f64>),
         xi: &Velocity,
     ) -> (PerBody<Vec3>, Vec3) {
         let (rates, mut momenta) = self.body_velocities((r, pose), xi);
-        for (v, mass) in momenta.iter_mut().zip(&self.masses) {
-            *v = mass.apply(*v);
+        let mut p: PerBody<Vec3> = SmallVec::with_capacity(rates.len());
+        for (i, (omega, v)) in rates.iter().zip(&mut momenta).enumerate() {
+            let node = &self.nodes[i];
+            p.push(node.j * *omega + node.coupling.transpose_mul(*v));
+            *v = self.momentum(i, *omega, *v);
         }
-        let spins = self.nodes.iter().zip(rates);
-        let mut p: PerBody<Vec3> = spins.map(|(node, omega)| node.j * omega).collect();
         for (i, node) in self.nodes.iter().enumerate().skip(1).rev() {
             let force = r[i].rotate(momenta[i]);
             let on_parent = r[node.parent].inverse_rotate(force);

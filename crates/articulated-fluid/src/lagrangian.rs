@@ -42,11 +42,7 @@ impl Lagrangian for ArticulatedBody {
         let mut pose = Pose::default();
         let (r, pose) = self.pose(at.t, g, &mut pose);
         let (rates, velocities) = self.body_velocities((r, pose), xi);
-        let mut twice = S::zero();
-        for (i, (node, v)) in self.nodes.iter().zip(velocities).enumerate() {
-            let omega = rates[i];
-            twice += v.dot(self.masses[i].apply(v)) + omega.dot(node.j.apply(omega));
-        }
+        let twice = self.twice_kinetic(&rates, &velocities);
         twice.times(0.5) - self.potential((r, pose), g)
     }
 

@@ -51,7 +51,7 @@
 //! use dvi::{Composition, Integrator, State};
 //! use lie::{LieGroup, Mat3, SO3, Vec3};
 //!
-//! let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
+//! let body = Body::new(Mat3::diagonal([1.0, 2.0, 2.0]), Mat3::diagonal([0.1, 0.2, 0.2]));
 //! let beat = Sinusoid { amplitude: [0.5], frequency: 1.0, ..Sinusoid::constant([0.0]) };
 //! let kind = JointKind::Prescribed(Motion::Hinge {
 //!     axis: Vec3([0.0, 0.0, 1.0]),

@@ -11,6 +11,21 @@ pub struct Body {
     pub mass: Mat3,
     /// $J_i$ about the mass centre in the body's frame, kg m².
     pub inertia: Mat3,
+    /// $C_i$ of the kinetic energy $\frac12 V \cdot M V + V \cdot C \Omega + \frac12 \Omega \cdot J \Omega$, kg m, (S26): the added one of a body
+    /// without three planes of symmetry, or whose fluid has another centre.
+    pub coupling: Mat3,
+}
+
+impl Body {
+    /// A body whose turns and displacements are not coupled.
+    pub fn new(mass: Mat3, inertia: Mat3) -> Self {
+        let coupling = Mat3::zero();
+        Self {
+            mass,
+            inertia,
+            coupling,
+        }
+    }
 }
 
 /// A joint: where it is on both bodies, and what it leaves free.
@@ -66,6 +81,8 @@ pub(crate) struct Node {
     pub(crate) is_last_sibling: bool,
     /// $J_i$.
     pub(crate) j: Mat3,
+    /// $C_i$, (S26).
+    pub(crate) coupling: Mat3,
     /// $d_{pi}$, in the parent's frame.
     pub(crate) at_parent: Vec3,
     /// $d_{ip}$, in the body's frame.
@@ -74,9 +91,9 @@ pub(crate) struct Node {
     pub(crate) lever: Vec3,
     /// $J'_{d_i}$, (24).
     pub(crate) jd: Mat3,
-    /// $-M_i \hat d_{ip}$.
+    /// $-M_i \hat d_{ip} - C_i$.
     pub(crate) k: Mat3,
-    /// $J'_i = J_i - \hat d_{ip} M_i \hat d_{ip}$, (24).
+    /// $J'_i = J_i - \hat d_{ip} M_i \hat d_{ip}$, (24), and $-\hat d_{ip} C_i + C_i^T \hat d_{ip}$ with it.
     pub(crate) j_joint: Sym3,
 }
 
@@ -88,20 +105,22 @@ impl Node {
         on: Vec3,
         role: Role,
     ) -> Self {
-        let (m, d) = (body.mass, at_self.hat());
+        let (m, c, d) = (body.mass, body.coupling, at_self.hat());
         let j_joint = body.inertia - d * m * d;
+        let coupled = d * c + (d * c).transpose();
         Self {
             parent,
             role,
             is_leaf: true,
             is_last_sibling: true,
             j: body.inertia,
+            coupling: c,
             at_parent,
             at_self,
             lever: at_parent - on,
             jd: nonstandard(j_joint),
-            k: -(m * d),
-            j_joint: Sym3::upper(&j_joint),
+            k: -(m * d) - c,
+            j_joint: Sym3::upper(&(j_joint - coupled)),
         }
     }
 }

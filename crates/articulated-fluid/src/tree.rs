@@ -35,7 +35,7 @@ pub(crate) type Momentum<S = f64> = DualOver<Configuration, S>;
 /// use articulated_fluid::{ArticulatedBody, Body, Joint, JointKind};
 /// use lie::{Mat3, Vec3};
 ///
-/// let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
+/// let body = Body::new(Mat3::diagonal([1.0, 2.0, 2.0]), Mat3::diagonal([0.1, 0.2, 0.2]));
 /// // A chain: each body on the one before.
 /// let points = [Vec3([0.6, 0.0, 0.0]), Vec3([-0.6, 0.0, 0.0])];
 /// let joint = |child: usize| Joint::new([child - 1, child], points, JointKind::Ball);
@@ -47,6 +47,8 @@ pub(crate) type Momentum<S = f64> = DualOver<Configuration, S>;
 pub struct ArticulatedBody {
     /// $M_i$.
     pub(crate) masses: Vec<Mat3>,
+    /// Whether one of the $C_i$ is not zero.
+    pub(crate) is_coupled: bool,
     /// A parent stands before its children.
     pub(crate) nodes: Vec<Node>,
     pub(crate) loads: Loads,
@@ -137,6 +139,7 @@ impl ArticulatedBody {
         for (index, body) in bodies.iter().enumerate() {
             definite(index, "mass", &body.mass)?;
             definite(index, "inertia", &body.inertia)?;
+            definite(index, "inertia with its coupling", &reduced(body))?;
         }
         let joints = in_order(joints, bodies.len())?;
         let first = match &base {
@@ -145,6 +148,7 @@ impl ArticulatedBody {
         };
         let mut made = Self {
             masses: bodies.iter().map(|body| body.mass).collect(),
+            is_coupled: bodies.iter().any(|body| body.coupling != Mat3::zero()),
             nodes: Vec::with_capacity(bodies.len()),
             loads: Loads::default(),
             joints: Joints::default(),
@@ -218,7 +222,7 @@ impl ArticulatedBody {
     pub(crate) fn has_views(&self) -> bool {
         let weight = self.loads.weight.as_ref();
         let is_central = weight.is_none_or(|weight| !weight.has_points());
-        self.is_simple() && !self.has_forces() && is_central
+        self.is_simple() && !self.is_coupled && !self.has_forces() && is_central
     }
 
     /// Whether a joint or a place moves as told.
@@ -240,6 +244,7 @@ impl ArticulatedBody {
         bodies.map(|(mass, node)| Body {
             mass: *mass,
             inertia: node.j,
+            coupling: node.coupling,
         })
     }
 
@@ -292,6 +297,18 @@ fn is_finite(node: &Node, mass: &Mat3) -> bool {
     let turn = alone.ldl.solve(Vec3([1.0; 3]));
     let solves = turn.is_finite() && turn != Vec3::zero();
     solves && derived.iter().all(|a| a.frobenius().is_finite()) && node.lever.is_finite()
+}
+
+/// $J - C^T M^{-1} C$: what is left to turn the body where its momentum is given.
+fn reduced(
+    Body {
+        mass,
+        inertia,
+        coupling,
+    }: &Body,
+) -> Mat3 {
+    let coupled = coupling.transpose() * mass.inverse() * *coupling;
+    *inertia - (coupled + coupled.transpose()) * 0.5
 }
 
 fn definite(body: usize, matrix: &'static str, a: &Mat3) -> Result<(), ModelError> {

@@ -114,9 +114,11 @@ fn chain(
 ) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn std::error::Error>> {
     let tilt = |k: usize| SO3::exp(&Tangent([0.3, -0.2, 0.1 + 0.01 * (k % 7) as f64]));
     let turned = |r: SO3, d: [f64; 3]| r.matrix().conjugate(Mat3::diagonal(d));
-    let body = |k: usize| Body {
-        mass: turned(tilt(k), [0.27, 0.66, 0.37]),
-        inertia: turned(tilt(k + 3), [0.2, 1.8, 2.9]),
+    let body = |k: usize| {
+        Body::new(
+            turned(tilt(k), [0.27, 0.66, 0.37]),
+            turned(tilt(k + 3), [0.2, 1.8, 2.9]),
+        )
     };
     let joint = |child: usize| Joint {
         parent: child - 1,

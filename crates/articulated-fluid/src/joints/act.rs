@@ -100,27 +100,30 @@ impl ArticulatedBody {
         }
     }
 
-    /// What the joint of body `i` leaves free, eliminated from the mass.
+    /// What the joint of body `i` leaves free, eliminated from the mass; with $h d$ of a damper in it, (S23).
     #[inline(always)]
     pub(crate) fn eliminate_mass<S: Scalar>(
         &self,
         i: usize,
+        resistance: Option<S>,
         link: &mut Link<S>,
         hinges: &mut [HingeFactors<S>],
     ) {
         let node = &self.nodes[i];
-        if node.role.is_root() {
-            // Those without children stay as they were made.
-            if !node.is_leaf {
-                link.eliminate();
-            }
+        let is_root = node.role.is_root();
+        // Balls without children stay as they were made, but for a damper, which knows the step.
+        if is_root && node.is_leaf && resistance.is_none() {
             return;
         }
         if node.is_leaf {
             link.reset(node, &self.masses[i]);
         }
+        if is_root {
+            return link.eliminate(resistance);
+        }
         if let Role::Hinge(k) = node.role {
-            link.eliminate_hinge(self.joints.hinges[k].axis.lift(), &mut hinges[k]);
+            let axis = self.joints.hinges[k].axis.lift();
+            link.eliminate_hinge(axis, resistance, &mut hinges[k]);
         }
     }
 

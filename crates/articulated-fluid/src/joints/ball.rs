@@ -16,19 +16,37 @@ impl<S: Scalar> Link<S> {
     pub(crate) fn alone(node: &Node, mass: &Mat3) -> Self {
         let mut link = Self::at_rest();
         link.reset(node, mass);
-        link.eliminate();
+        link.eliminate(None);
         link
     }
 
     /// With $Y = K L^{-T}$: $X = Y D^{-1} L^{-1}$ and $M^\ast = A - Y D^{-1} Y^T$, which cancels no more than it has to.
+    ///
+    /// A damper's $h d$ is in $H = L D L^T$, (S23).
     #[inline(always)]
-    pub(crate) fn eliminate(&mut self) {
+    pub(crate) fn eliminate(&mut self, resistance: Option<S>) {
+        if let Some(by) = resistance {
+            self.h += Sym3::isotropic(by);
+        }
         let ldl = self.h.ldl();
         let y = rows(&self.x, |row| ldl.forward(row));
         let scaled = rows(&y, |row| ldl.scale(row));
         self.x = rows(&scaled, |row| ldl.backward(row));
         self.mass -= Sym3::product(&scaled, &y);
         self.ldl = ldl;
+    }
+
+    /// What a damper hands up of an eliminated body beside its mass, (S23): with $\delta = h d$, $K^\ast = \delta X$ and
+    /// $H^\ast = \delta - \delta H^{-1} \delta$.
+    pub(crate) fn resisted(&self, by: S) -> Self {
+        let turned = |axis: [S; 3]| self.ldl.solve(Vec3(axis) * by) * by;
+        let unit = Mat3::identity();
+        let columns = [0, 1, 2].map(|i| turned(unit.row(i).0).0);
+        Self {
+            x: self.x * by,
+            h: Sym3::isotropic(by) - Sym3::upper(&Mat3(columns)),
+            ..*self
+        }
     }
 
     #[inline(always)]

@@ -49,7 +49,7 @@ pub(crate) struct HingeFactors<S> {
     h: Vec3<S>,
     /// $K s$.
     k: Vec3<S>,
-    /// $1 / D$ with $D = s \cdot H s$.
+    /// $1 / D$ with $D = s \cdot H s$, and $h d$ of a damper.
     inverse: S,
     /// $(\pi - s \cdot \nu) / D$.
     free: S,
@@ -74,11 +74,20 @@ impl<S: Scalar> HingeFactors<S> {
 }
 
 impl<S: Scalar> Link<S> {
-    /// $\Lambda^\ast = \Lambda - \Lambda S D^{-1} S^T \Lambda$ with $S = (s; 0)$.
+    /// $\Lambda^\ast = \Lambda - \Lambda S D^{-1} S^T \Lambda$ with $S = (s; 0)$; a damper's $h d$ is in $D$, (S23).
     #[inline(always)]
-    pub(crate) fn eliminate_hinge(&mut self, axis: Vec3<S>, factors: &mut HingeFactors<S>) {
+    pub(crate) fn eliminate_hinge(
+        &mut self,
+        axis: Vec3<S>,
+        resistance: Option<S>,
+        factors: &mut HingeFactors<S>,
+    ) {
         let (h, k) = (self.h * axis, self.x * axis);
-        let inverse = S::one() / axis.dot(h);
+        let mut own = axis.dot(h);
+        if let Some(by) = resistance {
+            own += by;
+        }
+        let inverse = S::one() / own;
         let (hd, kd) = (h * inverse, k * inverse);
         self.h -= Sym3::upper(&hd.outer(h));
         self.x -= kd.outer(h);

@@ -24,6 +24,11 @@ impl JointLoad {
         self.damping != 0.0 || self.torque.is_some() || self.servo.is_some()
     }
 
+    /// The slope of its torque against the rate, $d + k_d$, N m s/rad.
+    pub(crate) fn resistance(&self) -> f64 {
+        self.damping + self.servo.as_ref().map_or(0.0, |servo| servo.damping)
+    }
+
     /// Whether it is one of a hinge, or of a ball, and its numbers are sound.
     pub(super) fn suits(&self, is_hinge: bool) -> bool {
         let torque = self.torque.as_ref();

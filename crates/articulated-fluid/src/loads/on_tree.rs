@@ -78,7 +78,7 @@ impl ArticulatedBody {
     /// use dvi::State;
     /// use lie::{LieGroup, Mat3, SO3, Tangent, Vec3};
     ///
-    /// let body = Body { mass: Mat3::diagonal([1.0, 2.0, 2.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.2]) };
+    /// let body = Body::new(Mat3::diagonal([1.0, 2.0, 2.0]), Mat3::diagonal([0.1, 0.2, 0.2]));
     /// let (at_parent, at_child) = (Vec3([0.6, 0.0, 0.0]), Vec3([-0.6, 0.0, 0.0]));
     /// let pair = ArticulatedBody::new(&[body; 2], &[Joint::new([0, 1], [at_parent, at_child], JointKind::Ball)])?;
     /// let elastic = pair.with_stiffness(&[5.0])?;

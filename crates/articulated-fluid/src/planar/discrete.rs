@@ -204,7 +204,12 @@ impl DiscreteLagrangian for PlanarBody {
     }
 
     #[inline(always)]
-    fn factorise(&self, _: f64, (r, _): &PlanarConfiguration, work: &mut PlanarStepWorkspace) {
+    fn factorise(
+        &self,
+        _: (f64, f64),
+        (r, _): &PlanarConfiguration,
+        work: &mut PlanarStepWorkspace,
+    ) {
         work.r0 = r[0];
         work.inertia.factorise(self, r);
         let turned = self.nodes.iter().zip(r.iter());

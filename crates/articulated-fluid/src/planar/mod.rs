@@ -18,7 +18,7 @@
 //! use dvi::{Integrator, Lagrangian, Variational};
 //! use lie::{Mat3, Power, Tangent, Vec3};
 //!
-//! let body = Body { mass: Mat3::diagonal([1.0, 2.0, 3.0]), inertia: Mat3::diagonal([0.1, 0.2, 0.3]) };
+//! let body = Body::new(Mat3::diagonal([1.0, 2.0, 3.0]), Mat3::diagonal([0.1, 0.2, 0.3]));
 //! let (at_parent, at_child) = (Vec3([-0.6, 0.0, 0.0]), Vec3([0.6, 0.0, 0.0]));
 //! let fish = ArticulatedBody::new(&[body; 2], &[Joint::new([0, 1], [at_parent, at_child], JointKind::Ball)])?;
 //! // The tail beats about z.

@@ -46,7 +46,7 @@ impl Comoving {
     /// use articulated_fluid::{ArticulatedBody, Body, Comoving};
     /// use lie::{Mat3, Vec3};
     ///
-    /// let stone = Body { mass: Mat3::diagonal([5.0; 3]), inertia: Mat3::diagonal([1.0, 2.0, 3.0]) };
+    /// let stone = Body::new(Mat3::diagonal([5.0; 3]), Mat3::diagonal([1.0, 2.0, 3.0]));
     /// let falling = ArticulatedBody::new(&[stone], &[])?.with_gravity(Vec3([0.0, 0.0, -9.81]), &[5.0])?;
     /// let view = Comoving::new(&falling).expect("a vacuum");
     /// assert_eq!(view.model().gravity(), None);

@@ -31,7 +31,7 @@ impl Rerooted {
     /// use articulated_fluid::{ArticulatedBody, Body, Joint, JointKind, Rerooted};
     /// use lie::{Mat3, Vec3};
     ///
-    /// let body = |m: f64| Body { mass: Mat3::diagonal([m; 3]), inertia: Mat3::diagonal([0.1; 3]) };
+    /// let body = |m: f64| Body::new(Mat3::diagonal([m; 3]), Mat3::diagonal([0.1; 3]));
     /// let (at_parent, at_child) = (Vec3([0.5, 0.0, 0.0]), Vec3([-2.0, 0.0, 0.0]));
     /// let joints = [Joint::new([0, 1], [at_parent, at_child], JointKind::Ball)];
     /// let view = Rerooted::new(&ArticulatedBody::new(&[body(1.0), body(9.0)], &joints)?).expect("a heavier one");

@@ -213,7 +213,7 @@ pub fn spd() -> impl Strategy<Value = Mat3> {
 }
 
 pub fn body() -> impl Strategy<Value = Body> {
-    (spd(), spd()).prop_map(|(mass, inertia)| Body { mass, inertia })
+    (spd(), spd()).prop_map(|(mass, inertia)| Body::new(mass, inertia))
 }
 
 /// Any rotation.
@@ -324,7 +324,7 @@ pub fn gentle(shape: Shape, bodies: usize) -> (ArticulatedBody, State<Configurat
         kind: Default::default(),
     };
     let joints: Vec<_> = (1..bodies).map(joint).collect();
-    let model = build(&vec![Body { mass, inertia }; bodies], &joints, &None);
+    let model = build(&vec![Body::new(mass, inertia); bodies], &joints, &None);
     let wave = |i: usize| {
         let phase = 0.7 * i as f64;
         Tangent([

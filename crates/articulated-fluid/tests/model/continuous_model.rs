@@ -91,8 +91,8 @@ proptest! {
         let mut work = Default::default();
         let mut reduced = g.zero_algebra();
         spoil(&mut reduced);
-        model.factorise(0.0, &model.aligned(), &mut work);
-        model.factorise(0.0, g, &mut work);
+        model.factorise((0.0, 0.0), &model.aligned(), &mut work);
+        model.factorise((0.0, 0.0), g, &mut work);
         model.solve(&mut work, &mu, &mut reduced);
         // Rounding times the condition, in both.
         assert_close(&reduced.coordinates(), &dense, 1e-12);
@@ -113,7 +113,7 @@ proptest! {
         let Sample { model, g, f, .. } = &sample;
         let (mut work, mut f, mu) = (Default::default(), f.clone(), sample.mu());
         let state = State { t: 0.0, g: g.clone(), mu };
-        model.factorise(0.0, g, &mut work);
+        model.factorise((0.0, 0.0), g, &mut work);
         f.1[0].0 = [f64::NAN; 3];
         let (mut c, mut out) = (f.zero_algebra(), Derivatives::new(g));
         model.eliminate(&mut work, (&state, H), &mut f, &mut c, &mut out);

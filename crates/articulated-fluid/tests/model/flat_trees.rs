@@ -46,9 +46,11 @@ fn about_z(angle: f64) -> SO3 {
 
 impl Flat {
     pub fn model(&self) -> ArticulatedBody {
-        let body = |part: &Part| Body {
-            mass: part.frame.matrix().conjugate(part.mass),
-            inertia: part.frame.matrix().conjugate(part.inertia),
+        let body = |part: &Part| {
+            Body::new(
+                part.frame.matrix().conjugate(part.mass),
+                part.frame.matrix().conjugate(part.inertia),
+            )
         };
         let bodies: Vec<Body> = self.parts.iter().map(body).collect();
         let joint = |child: usize| {

@@ -8,10 +8,10 @@ use proptest::prelude::*;
 use crate::common::*;
 
 fn sound() -> Body {
-    Body {
-        mass: Mat3([[2.0, 0.5, 0.0], [0.5, 1.0, 0.25], [0.0, 0.25, 3.0]]),
-        inertia: Mat3::diagonal([1.0, 2.0, 4.0]),
-    }
+    Body::new(
+        Mat3([[2.0, 0.5, 0.0], [0.5, 1.0, 0.25], [0.0, 0.25, 3.0]]),
+        Mat3::diagonal([1.0, 2.0, 4.0]),
+    )
 }
 
 fn joint(parent: usize, child: usize) -> Joint {
@@ -299,7 +299,7 @@ fn wild_body() -> impl Strategy<Value = Body> {
     let matrix = || prop::array::uniform3(prop::array::uniform3(wild())).prop_map(Mat3);
     let diagonal = prop::array::uniform3(prop::num::f64::ANY).prop_map(Mat3::diagonal);
     let mass = prop_oneof![spd(), matrix(), diagonal];
-    (mass, prop_oneof![spd(), matrix()]).prop_map(|(mass, inertia)| Body { mass, inertia })
+    (mass, prop_oneof![spd(), matrix()]).prop_map(|(mass, inertia)| Body::new(mass, inertia))
 }
 
 fn wild_joint() -> impl Strategy<Value = Joint> {

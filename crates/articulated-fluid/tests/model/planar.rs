@@ -98,7 +98,7 @@ proptest! {
         let (model, State { g, mu, .. }) = flat.planar();
         let (mut work, mut xi) = (Default::default(), g.zero_algebra());
         spoil(&mut xi);
-        model.factorise(0.0, &g, &mut work);
+        model.factorise((0.0, 0.0), &g, &mut work);
         model.solve(&mut work, &mu, &mut xi);
         let dense = solve(&dense_inertia(&model, &g), &mu.coordinates());
         assert_close(&xi.coordinates(), &dense, 1e-11);
@@ -109,7 +109,7 @@ proptest! {
         let (model, state) = flat.planar();
         let g = &state.g;
         let (mut work, mut c, mut out) = (Default::default(), g.zero_algebra(), Derivatives::new(g));
-        model.factorise(0.0, g, &mut work);
+        model.factorise((0.0, 0.0), g, &mut work);
         model.eliminate(&mut work, (&state, H), &mut f, &mut c, &mut out);
         let [d_f, d_g] = derivatives(&model, g, &f);
         prop_assert_eq!(out.d_f.coordinates(), d_f.clone());

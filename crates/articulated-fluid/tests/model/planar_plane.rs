@@ -131,10 +131,7 @@ fn each_plane_of_the_coordinates_is_found_exactly() {
 
 #[test]
 fn bodies_without_a_preferred_direction_at_rest_have_a_plane() {
-    let ball = Body {
-        mass: Mat3::diagonal([1.0; 3]),
-        inertia: Mat3::diagonal([0.1; 3]),
-    };
+    let ball = Body::new(Mat3::diagonal([1.0; 3]), Mat3::diagonal([0.1; 3]));
     let off = |at: Vec3| Joint {
         parent: 0,
         child: 1,
@@ -160,10 +157,10 @@ fn bodies_without_a_preferred_direction_at_rest_have_a_plane() {
 /// A body of which lengths are about `size`.
 fn sized(size: f64) -> Body {
     let mass = size.powi(3);
-    Body {
-        mass: Mat3::diagonal([mass, 2.0 * mass, 3.0 * mass]),
-        inertia: Mat3::diagonal([0.3, 0.5, 0.6]) * (mass * size * size),
-    }
+    Body::new(
+        Mat3::diagonal([mass, 2.0 * mass, 3.0 * mass]),
+        Mat3::diagonal([0.3, 0.5, 0.6]) * (mass * size * size),
+    )
 }
 
 /// A body of 1 m on one of `size`, its joint `off` the plane in which it spins.
@@ -231,10 +228,7 @@ fn falling(azimuth: f64, mut check: impl FnMut(Result<Plane, NotPlanar>)) {
     };
     for inertia in [[0.1; 3], [0.1, 0.4, 0.4], [0.1, 0.4, 0.45]] {
         for net in [[-2.0, 1.0, 1.0], [0.1, 1.0, 1.0]] {
-            let body = Body {
-                mass: Mat3::diagonal([1.0; 3]),
-                inertia: Mat3::diagonal(inertia),
-            };
+            let body = Body::new(Mat3::diagonal([1.0; 3]), Mat3::diagonal(inertia));
             let model = ArticulatedBody::new(&[body; 3], &[link(0), link(1)]).expect("a model");
             let model = model.with_gravity(Vec3([0.0, 0.0, -9.81]), &net);
             let model = model.expect("a weight");
@@ -264,10 +258,7 @@ fn a_plane_that_is_no_coordinate_plane_is_not_taken() {
 /// Three bodies pinned by their centres to a float that carries them: their weights balance, but for rounding.
 #[test]
 fn weights_that_balance_have_no_part_along_the_normal() {
-    let body = Body {
-        mass: Mat3::diagonal([1.0; 3]),
-        inertia: Mat3::diagonal([0.1, 0.4, 0.45]),
-    };
+    let body = Body::new(Mat3::diagonal([1.0; 3]), Mat3::diagonal([0.1, 0.4, 0.45]));
     let pin = |(i, x): (usize, f64)| Joint {
         parent: 0,
         child: i + 1,

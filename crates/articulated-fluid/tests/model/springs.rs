@@ -52,10 +52,8 @@ proptest! {
 
 /// Two bodies joined at both their mass centres, in a vacuum.
 fn pair(inertias: [[f64; 3]; 2], stiffness: f64) -> ArticulatedBody {
-    let bodies = inertias.map(|inertia| Body {
-        mass: Mat3::diagonal([1.0; 3]),
-        inertia: Mat3::diagonal(inertia),
-    });
+    let bodies =
+        inertias.map(|inertia| Body::new(Mat3::diagonal([1.0; 3]), Mat3::diagonal(inertia)));
     let joint = Joint {
         parent: 0,
         child: 1,
@@ -112,10 +110,10 @@ fn a_small_oscillation_has_the_frequency_worked_out_by_hand() {
 
 /// A chain of four in water, twisted by up to a radian at each joint.
 fn chain() -> (ArticulatedBody, State<Configuration>) {
-    let body = Body {
-        mass: Mat3([[1.0, 0.1, 0.0], [0.1, 2.0, 0.2], [0.0, 0.2, 2.5]]),
-        inertia: Mat3::diagonal([0.2, 0.4, 0.5]),
-    };
+    let body = Body::new(
+        Mat3([[1.0, 0.1, 0.0], [0.1, 2.0, 0.2], [0.0, 0.2, 2.5]]),
+        Mat3::diagonal([0.2, 0.4, 0.5]),
+    );
     let joint = |child: usize| Joint {
         parent: child - 1,
         child,

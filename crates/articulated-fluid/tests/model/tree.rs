@@ -64,8 +64,8 @@ proptest! {
         let size = norm(&mu);
         assert_close(&product(&inertia, &sample.xi.coordinates()), &mu, 1e-14 * size);
         let (mut work, mut xi) = (Default::default(), sample.xi.clone());
-        model.factorise(0.0, &model.aligned(), &mut work);
-        model.factorise(0.0, &sample.g, &mut work);
+        model.factorise((0.0, 0.0), &model.aligned(), &mut work);
+        model.factorise((0.0, 0.0), &sample.g, &mut work);
         // The factorisation outlives a solve.
         for _ in 0..2 {
             spoil(&mut xi);
@@ -312,7 +312,7 @@ fn buoy() -> (ArticulatedBody, State<Configuration>) {
         joint(1, 3, [0.2, -0.1, -0.5]),
     ];
     let weight = Some((Vec3([0.0, 0.0, -9.81]), vec![-1.0, 0.25, 0.25, 0.5]));
-    let model = build(&[Body { mass, inertia }; 4], &joints, &weight);
+    let model = build(&[Body::new(mass, inertia); 4], &joints, &weight);
     let tilt = |x: f64, y: f64| SO3::exp(&Tangent([x, y, 0.0]));
     let tilts = [(0.3, 0.1), (-0.2, 0.3), (0.4, 0.0), (0.1, -0.5)].map(|(x, y)| tilt(x, y));
     let g = (

@@ -177,9 +177,11 @@ fn the_root_matters_to_the_first_order_by_its_error() {
         at_child: Vec3([-0.7, 0.0, 0.2]),
         kind: Default::default(),
     };
-    let body = |m: f64| articulated_fluid::Body {
-        mass: Mat3::diagonal([m, 2.0 * m, 2.5 * m]),
-        inertia: Mat3::diagonal([0.2 * m, 0.3 * m, 0.4 * m]),
+    let body = |m: f64| {
+        articulated_fluid::Body::new(
+            Mat3::diagonal([m, 2.0 * m, 2.5 * m]),
+            Mat3::diagonal([0.2 * m, 0.3 * m, 0.4 * m]),
+        )
     };
     let model = ArticulatedBody::new(&[body(1.0), body(3.0)], &[joint]).expect("a model");
     let start = spinning(&model, [0.1, 0.2, 0.0]);
@@ -211,9 +213,11 @@ fn spinning(model: &ArticulatedBody, velocity: [f64; 3]) -> State<Configuration>
 
 /// Two bodies in a vacuum that drift and fall.
 fn falling() -> (ArticulatedBody, State<Configuration>) {
-    let body = |m: f64| articulated_fluid::Body {
-        mass: Mat3::diagonal([m; 3]),
-        inertia: Mat3::diagonal([0.2 * m, 0.3 * m, 0.4 * m]),
+    let body = |m: f64| {
+        articulated_fluid::Body::new(
+            Mat3::diagonal([m; 3]),
+            Mat3::diagonal([0.2 * m, 0.3 * m, 0.4 * m]),
+        )
     };
     let joint = articulated_fluid::Joint {
         parent: 0,

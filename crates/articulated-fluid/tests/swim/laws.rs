@@ -75,10 +75,7 @@ proptest! {
 #[test]
 fn a_hinge_without_an_axis_is_no_model() {
     use articulated_fluid::{ArticulatedBody, Body, Joint, ModelError};
-    let body = Body {
-        mass: lie::Mat3::identity(),
-        inertia: lie::Mat3::identity(),
-    };
+    let body = Body::new(lie::Mat3::identity(), lie::Mat3::identity());
     let kind = JointKind::hinge(Vec3::zero(), SO3::identity());
     let joint = Joint::new([0, 1], [Vec3::zero(); 2], kind);
     let refused = ArticulatedBody::new(&[body; 2], &[joint]).expect_err("no axis");

@@ -2,10 +2,12 @@
 
 #[path = "../model/by_duals.rs"]
 mod by_duals;
+mod coupled;
 mod laws;
 mod loads;
 mod planar;
 mod published;
+mod stiff;
 mod strokes;
 mod trees;
 mod vectors;

@@ -13,14 +13,15 @@ use lie::{AlgebraOver, LieGroup, Mat3, SO3, Scalar, Tangent, Vec3, VectorSpace};
 use proptest::prelude::*;
 
 /// What is told of a tree: for each body three numbers of its parent and its kind, and many for the rest.
-type Told = (Vec<(usize, u8, [f64; 40])>, bool);
+pub type Told = (Vec<(usize, u8, [f64; 40])>, bool);
 
 #[derive(Clone, Debug)]
 pub struct Tree {
+    pub told: Told,
     pub model: ArticulatedBody,
     pub state: State<Configuration>,
-    f: Configuration,
-    xi: AlgebraOver<Configuration, f64>,
+    pub f: Configuration,
+    pub xi: AlgebraOver<Configuration, f64>,
 }
 
 fn vec3(x: &[f64]) -> Vec3 {
@@ -67,20 +68,22 @@ fn kind(which: u8, x: &[f64]) -> JointKind {
 }
 
 /// The tree, under gravity and on springs where these are asked for.
-fn tree((told, held): Told, loaded: bool) -> Tree {
-    let bodies: Vec<Body> = told
+fn tree(told: Told, loaded: bool) -> Tree {
+    let (parts, held) = (&told.0, told.1);
+    let bodies: Vec<Body> = parts
         .iter()
         .map(|(.., x)| Body {
-            mass: definite(&x[0..6], 1.0),
-            inertia: definite(&x[6..12], 0.2),
+            // Below the root of the least eigenvalues of both, so that the whole is definite.
+            coupling: Mat3([0, 3, 6].map(|i| [x[i], x[i + 1], x[i + 2]])) * 0.12,
+            ..Body::new(definite(&x[9..15], 1.0), definite(&x[6..12], 0.2))
         })
         .collect();
     let joint = |(child, (parent, which, x)): (usize, &(usize, u8, [f64; 40]))| {
         let points = [vec3(&x[12..15]), vec3(&x[15..18])];
         Joint::new([parent % child, child], points, kind(*which, &x[18..34]))
     };
-    let joints: Vec<Joint> = told.iter().enumerate().skip(1).map(joint).collect();
-    let (_, which, x) = &told[0];
+    let joints: Vec<Joint> = parts.iter().enumerate().skip(1).map(joint).collect();
+    let (_, which, x) = &parts[0];
     let mut model = match held {
         false => ArticulatedBody::new(&bodies, &joints),
         true => {
@@ -95,17 +98,17 @@ fn tree((told, held): Told, loaded: bool) -> Tree {
     }
     .expect("a model");
     if loaded {
-        let net: Vec<f64> = told.iter().map(|(.., x)| 0.5 * x[37]).collect();
+        let net: Vec<f64> = parts.iter().map(|(.., x)| 0.5 * x[37]).collect();
         let first = usize::from(!held);
         let stiffness = |(_, which, x): &(usize, u8, [f64; 40])| match which {
             0 | 1 => x[38].abs(),
             _ => 0.0,
         };
-        let stiffnesses: Vec<f64> = told[first..].iter().map(stiffness).collect();
+        let stiffnesses: Vec<f64> = parts[first..].iter().map(stiffness).collect();
         model = model
             .with_gravity(Vec3([0.3, -0.4, -2.0]), &net)
             .expect("a weight");
-        let moments: Vec<Vec3> = told.iter().map(|(.., x)| vec3(&x[35..38]) * 0.3).collect();
+        let moments: Vec<Vec3> = parts.iter().map(|(.., x)| vec3(&x[35..38]) * 0.3).collect();
         model = model.with_buoyancy(&moments).expect("points");
         model = model.with_stiffness(&stiffnesses).expect("springs");
     }
@@ -115,7 +118,10 @@ fn tree((told, held): Told, loaded: bool) -> Tree {
         mu: model.aligned().zero_dual(),
     };
     let (mut f, mut xi) = (state.g.clone(), state.g.zero_algebra());
-    let numbers: Vec<f64> = told.iter().flat_map(|(.., x)| x[28..40].to_vec()).collect();
+    let numbers: Vec<f64> = parts
+        .iter()
+        .flat_map(|(.., x)| x[28..40].to_vec())
+        .collect();
     let mut turn = state.g.zero_algebra();
     for i in 0..xi.dim() {
         let at = |k: usize| numbers[(5 * i + k) % numbers.len()];
@@ -128,6 +134,7 @@ fn tree((told, held): Told, loaded: bool) -> Tree {
     f = f.compose(&Configuration::exp(&turn));
     state.mu = model.legendre(state.t, &state.g, &xi).expect("a state");
     Tree {
+        told,
         model,
         state,
         f,

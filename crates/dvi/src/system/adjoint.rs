@@ -126,8 +126,9 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for Adjoint<L> {
         self.0.is_symmetric()
     }
 
-    fn factorise(&self, t: f64, g: &L::Group, work: &mut AdjointWorkspace<L, f64>) {
-        self.0.factorise(t, g, &mut work.other);
+    /// What acts at the start of the other's step acts at the end of this one: nothing of it is in the equations.
+    fn factorise(&self, (t, _): (f64, f64), g: &L::Group, work: &mut AdjointWorkspace<L, f64>) {
+        self.0.factorise((t, 0.0), g, &mut work.other);
     }
     fn solve(
         &self,

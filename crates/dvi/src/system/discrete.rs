@@ -97,10 +97,11 @@ pub trait DiscreteLagrangian: System {
         false
     }
 
-    /// Factorises the inertia $\mathbb I(g)$ at the time `t`, which answers to the velocity with the momentum.
+    /// Factorises the inertia $\mathbb I(g)$ at the time $t$, which answers to the velocity with the momentum.
     ///
     /// Its multiple $\mathbb I(g_k) / h$ is the matrix of the iteration that solves a step: it contracts by a factor of the order of $h |\xi|$.
-    fn factorise(&self, _t: f64, _g: &Self::Group, _work: &mut Self::Workspace<f64>) {}
+    /// A model whose $L_d$ has stiff forces at its start adds $h$ times their slope by the velocity; at $h = 0$ it is the inertia alone.
+    fn factorise(&self, (_t, _h): (f64, f64), _g: &Self::Group, _work: &mut Self::Workspace<f64>) {}
 
     /// Solves $\mathbb I(g) \xi = \mu$; writes every coordinate of `xi`. The factors stay as they are.
     fn solve(
@@ -189,8 +190,8 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for &L {
         L::is_symmetric(self)
     }
     #[inline(always)]
-    fn factorise(&self, t: f64, g: &L::Group, work: &mut L::Workspace<f64>) {
-        L::factorise(self, t, g, work);
+    fn factorise(&self, step: (f64, f64), g: &L::Group, work: &mut L::Workspace<f64>) {
+        L::factorise(self, step, g, work);
     }
     #[inline(always)]
     fn solve(

@@ -125,8 +125,8 @@ where
         self.system.is_symmetric() && self.force.is_symmetric()
     }
 
-    fn factorise(&self, t: f64, g: &L::Group, work: &mut Self::Workspace<f64>) {
-        self.system.factorise(t, g, &mut work.system);
+    fn factorise(&self, step: (f64, f64), g: &L::Group, work: &mut Self::Workspace<f64>) {
+        self.system.factorise(step, g, &mut work.system);
     }
     fn solve(
         &self,

@@ -53,7 +53,7 @@ impl<L: DiscreteLagrangian> Matrix<L> {
         work: &mut L::Workspace<f64>,
     ) {
         if L::HAS_INERTIA {
-            lagrangian.factorise(state.t, &state.g, work);
+            lagrangian.factorise((state.t, h), &state.g, work);
             (self.h, self.takes_exact) = (h, false);
         } else if let Some(exact) = &mut self.exact {
             exact.begin(h);

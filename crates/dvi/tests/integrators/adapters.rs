@@ -88,7 +88,7 @@ impl DiscreteLagrangian for Body {
         out.d_g = (torque.into(), Cotangent::zero());
     }
 
-    fn factorise(&self, _: f64, g: &Group, work: &mut Option<SO3>) {
+    fn factorise(&self, _: (f64, f64), g: &Group, work: &mut Option<SO3>) {
         count(&self.factorised);
         *work = Some(g.0);
     }
@@ -182,7 +182,7 @@ fn the_body_is_right_by_hand() {
     // The inertia is that of short steps: in the direction of a velocity it answers with the momentum.
     let (State { g, mu, .. }, h) = (start(), 1e-6);
     let (mut work, mut xi) = (None, g.zero_algebra());
-    body.factorise(0.0, &g, &mut work);
+    body.factorise((0.0, h), &g, &mut work);
     body.solve(&mut work, &mu, &mut xi);
     let f = Group::exp(&(xi.0 * h, xi.1 * h));
     let again = dvi::legendre_plus(&body, 0.0, &g, &f, h);
