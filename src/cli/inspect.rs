@@ -94,6 +94,14 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     }
 }
 
+/// With what is none as such.
+fn listed<T: std::borrow::Borrow<str>>(items: &[T]) -> String {
+    match items {
+        [] => "nothing".to_owned(),
+        items => items.join("; "),
+    }
+}
+
 fn text(inspection: &Inspection) -> String {
     let account = inspection.account;
     let head = [
@@ -103,6 +111,8 @@ fn text(inspection: &Inspection) -> String {
         ],
         ["file".to_owned(), print::one_line(inspection.scene)],
         ["bodies".to_owned(), inspection.bodies.to_string()],
+        ["acts".to_owned(), listed(&account.acts)],
+        ["keeps".to_owned(), listed(&account.keeps)],
         [
             "group".to_owned(),
             format!("{}, dimension {}", account.group, account.dimension),

@@ -1,5 +1,6 @@
 //! What of a scene is left out of its smallest exact model, and why: as a user reads it.
 
+use dvi::DiscreteLagrangian;
 use lie::Vec3;
 use serde::Serialize;
 
@@ -21,6 +22,10 @@ pub struct Account {
     pub full_group: String,
     /// Its dimension, and the unknowns with it.
     pub full_dimension: usize,
+    /// What acts beside inertia, each with the names of what it acts on: `weight`, `drag on head`.
+    pub acts: Vec<String>,
+    /// What every motion keeps: `energy` or `energy less work`, `symplectic form`, linear and angular momentum.
+    pub keeps: Vec<&'static str>,
     /// Every reduction that there is, taken or not.
     pub reductions: Vec<Reduction>,
 }
@@ -63,7 +68,7 @@ impl Scene {
         let full = space(found.model);
         let ((group, dimension), unknowns) = match found.plane {
             Ok(_) => (flat(bodies), bodies),
-            Err(_) => (full.clone(), full.1 - found.model.translation().len()),
+            Err(_) => (full.clone(), full.1 - found.model.eliminated().len()),
         };
         Account {
             group,
@@ -71,6 +76,8 @@ impl Scene {
             unknowns,
             full_group: full.0,
             full_dimension: full.1,
+            acts: self.acts(found.model),
+            keeps: found.model.keeps(),
             reductions: vec![
                 translation(found.model),
                 joints(bodies),
@@ -176,8 +183,7 @@ impl Scene {
 }
 
 /// Why a view is not taken of other trees.
-const BALLS: &str =
-    "only of a free tree on ball joints without motors, dampers, drag and points of buoyancy";
+const BALLS: &str = "only of a free tree on ball joints, without coupled inertia and points of buoyancy, on which nothing acts but weight and springs";
 
 fn translation(model: &ArticulatedBody) -> Reduction {
     let why = match model.is_free() {
@@ -186,13 +192,16 @@ fn translation(model: &ArticulatedBody) -> Reduction {
     };
     Reduction {
         name: "translation",
-        taken: model.is_free(),
+        taken: !model.eliminated().is_empty(),
         drops: "x and its momentum from the unknowns; x is rebuilt at each step".to_owned(),
         why: why.to_owned(),
     }
 }
 
 fn translated(model: &ArticulatedBody) -> &'static str {
+    if model.loads.forces.act_on_bodies() {
+        return "drag and thrust change the linear momentum, and drag is not linear in the velocity";
+    }
     match model.net_weight() == Vec3::zero() {
         true => "no force depends on where the bodies are: the linear momentum is constant",
         false => "the weight's impulse is constant, so the equation of x stays linear",

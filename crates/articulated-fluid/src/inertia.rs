@@ -6,10 +6,11 @@ use core::ops::Add;
 
 use lie::{Cotangent, Ldl3, SO3, Scalar, Sym3, Vec3};
 
+use crate::error::ModelError;
 use crate::joints::{HingeFactors, Link};
 use crate::loads::Twist;
-use crate::pose::Drive;
-use crate::tree::{ArticulatedBody, Identity, Momentum, Velocity};
+use crate::pose::{Drive, Pose};
+use crate::tree::{ArticulatedBody, Configuration, Identity, Momentum, Velocity};
 
 /// The inertia at a configuration, factorised, with the storage for solves; with dampers in the matrix of a step, (S23), where `DAMPED`.
 #[derive(Clone, Debug)]
@@ -36,6 +37,51 @@ impl<S: Scalar, const DAMPED: bool> Default for Elimination<S, DAMPED> {
     }
 }
 
+impl Elimination<f64, true> {
+    /// Whether the matrix is positive definite, once it is factorised.
+    fn is_definite(&self, tree: &ArticulatedBody) -> bool {
+        let bodies = tree.nodes.iter().zip(&self.links);
+        let mut balls = bodies.filter(|(node, _)| node.role.is_root());
+        let base = !tree.is_free() || self.base.is_positive();
+        base && balls.all(|(_, link)| link.ldl.is_positive())
+            && self.hinges.iter().all(HingeFactors::is_positive)
+    }
+}
+
+impl ArticulatedBody {
+    /// The rate at which dampers and servos brake the fastest motion, 1/s: the largest $\lambda$ of $D \xi = \lambda \mathbb I(g)\, \xi$.
+    ///
+    /// A step of $-h$ has a pole at $h \lambda = 1$, (S23).
+    ///
+    /// # Errors
+    /// [`ModelError::Shape`] where the configuration is not one of this model.
+    pub fn braking_rate(&self, t: f64, g: &Configuration) -> Result<f64, ModelError> {
+        self.check(g)?;
+        let (mut work, mut pose) = (Elimination::<f64, true>::default(), Pose::default());
+        let (r, pose) = self.pose(t, g, &mut pose);
+        let mut is_beyond = |h: f64| {
+            work.resist(self, -h);
+            work.factorise(self, r, &pose.c);
+            !work.is_definite(self)
+        };
+        let doublings = (-60..60).map(|k| f64::from(k).exp2());
+        let mut steps = doublings.skip_while(|h| !is_beyond(*h));
+        let Some(mut far) = steps.next() else {
+            return Ok(0.0);
+        };
+        drop(steps);
+        let mut near = 0.5 * far;
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (near + far);
+            match is_beyond(middle) {
+                true => far = middle,
+                false => near = middle,
+            }
+        }
+        Ok(1.0 / far)
+    }
+}
+
 impl<S: Scalar> Elimination<S, true> {
     /// Puts the dampers of a step of `h` into the matrix, (S23), which is factorised after this.
     pub(crate) fn resist(&mut self, tree: &ArticulatedBody, h: S) {
@@ -47,6 +93,9 @@ impl<S: Scalar> Elimination<S, true> {
         }
     }
 }
+
+/// Halvings that find a pole to six digits.
+const BISECTIONS: u32 = 20;
 
 /// Masses and momenta, from the leaves to the first body.
 impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {

@@ -18,7 +18,11 @@ impl Scene {
     /// # Errors
     /// [`ModelError`] where numbers are too large or small for each other, or a scene made by hand is not a model.
     pub fn model(&self) -> Result<ArticulatedBody, ModelError> {
-        let body = |body: &SceneBody| Body::new(Mat3(body.total_mass), Mat3(body.total_inertia));
+        let body = |body: &SceneBody| Body {
+            mass: Mat3(body.total_mass),
+            inertia: Mat3(body.total_inertia),
+            coupling: Mat3(body.coupling),
+        };
         let joint = |joint: &SceneJoint| {
             let points = [Vec3(joint.at_parent), Vec3(joint.at_child)];
             let kind = joint.mobility.kind.clone();

@@ -103,7 +103,7 @@ impl ArticulatedBody {
         g.0.iter().map(SO3::orthogonality_error).fold(0.0, f64::max)
     }
 
-    fn check(&self, g: &Configuration) -> Result<(), ModelError> {
+    pub(crate) fn check(&self, g: &Configuration) -> Result<(), ModelError> {
         match self.has_shape_of(g) {
             true => Ok(()),
             false => Err(self.shape_error(g)),

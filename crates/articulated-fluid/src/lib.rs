@@ -98,6 +98,7 @@ pub mod formulas {}
 mod inertia;
 mod initial;
 mod joints;
+mod keeps;
 mod kinematics;
 mod lagrangian;
 mod loads;

@@ -131,6 +131,17 @@ impl<L: DiscreteLagrangian + Clone> Composition<L> {
 }
 
 impl<L: DiscreteLagrangian> Composition<L> {
+    /// The longest step back in time of the discrete Lagrangian, in steps of the whole; zero of order 2.
+    ///
+    /// A damper has a pole there: it feeds the motion, and does so without bound where its rate times that step comes to one.
+    pub fn longest_step_back(&self) -> f64 {
+        let back = |part: &Part<L>| match part.adjoint {
+            Some(_) => -0.5 * part.length,
+            None => -part.length,
+        };
+        self.parts.iter().map(back).fold(0.0, f64::max)
+    }
+
     /// The largest residual of the solved parts, as [`Variational::with_tolerance`].
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         let with = |part: Part<L>| Part {

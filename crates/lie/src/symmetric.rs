@@ -172,6 +172,13 @@ impl<S: Scalar> Ldl3<S> {
     }
 }
 
+impl Ldl3 {
+    /// Whether the matrix is positive definite.
+    pub fn is_positive(&self) -> bool {
+        self.pivots.0.iter().all(|pivot| *pivot > 0.0)
+    }
+}
+
 impl Sym3<f64> {
     /// The same matrix over another scalar, as a constant.
     #[inline(always)]

@@ -103,19 +103,31 @@ impl Stage<'_> {
             Choice::Method {
                 method,
                 step: Some(step),
-            } => Ok(Chosen {
-                method,
-                step,
-                checked: None,
-            }),
+            } => match self.longest_with_dampers(method)? {
+                longest if step > longest => Err(SimError::DamperPole {
+                    method,
+                    step,
+                    longest,
+                }),
+                _ => Ok(Chosen {
+                    method,
+                    step,
+                    checked: None,
+                }),
+            },
             Choice::Method { method, step: None } => {
                 positive("time to run to, in seconds,", self.until)?;
+                let longest = self.longest_with_dampers(method)?;
+                let mut step = self.on_model(DefaultStep {
+                    method,
+                    longest: self.longest(),
+                });
+                while step > longest {
+                    step *= 0.5;
+                }
                 Ok(Chosen {
                     method,
-                    step: self.on_model(DefaultStep {
-                        method,
-                        longest: self.longest(),
-                    }),
+                    step,
                     checked: None,
                 })
             }
@@ -166,6 +178,16 @@ impl Stage<'_> {
     /// The longest easy step for what moves as told, s: the unknowns alone may not show how fast that is.
     fn longest(&self) -> f64 {
         TOLD / self.model.told_rate(self.until.min(BEGINNING))
+    }
+
+    /// The longest step that keeps away from the poles of dampers, s, as the scene starts.
+    fn longest_with_dampers(&self, method: Method) -> Result<f64, SimError> {
+        let State { t, g, .. } = self.scene.initial_state()?;
+        let rate = self.model.braking_rate(t, &g)?;
+        Ok(match rate > 0.0 {
+            true => method.longest_with_dampers(self.model.clone(), rate),
+            false => f64::INFINITY,
+        })
     }
 
     /// Asks the smallest model, in space or in its plane.

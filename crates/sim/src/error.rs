@@ -4,6 +4,7 @@ use articulated_fluid::ModelError;
 use dvi::{PilotError, StepError};
 use thiserror::Error;
 
+use crate::method::Method;
 use crate::number::decimal;
 
 /// The largest accuracy that can be asked for: two attitudes at random are hardly farther apart.
@@ -69,6 +70,19 @@ pub enum SimError {
         to: f64,
         /// The time to run to, s.
         until: f64,
+    },
+    /// A method's steps back in time come too near to where a damper feeds the motion without bound.
+    #[error(
+        "{method} takes steps back in time, where dampers and servos feed the motion: at this damping its step is at most {} s, and {} s is asked for; take a shorter --step, composition-2 or gauss-4",
+        decimal(*longest), decimal(*step)
+    )]
+    DamperPole {
+        /// Which.
+        method: Method,
+        /// As asked for, s.
+        step: f64,
+        /// The longest step, s.
+        longest: f64,
     },
     /// No stages and step were found for the accuracy.
     #[error(transparent)]

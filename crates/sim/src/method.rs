@@ -199,6 +199,16 @@ impl Method {
         self.entry().default_step
     }
 
+    /// The longest step of a model, s, that keeps its steps back in time at half the distance to the pole of a damper that brakes at
+    /// `rate`, 1/s. Methods that take none have no such limit.
+    pub(crate) fn longest_with_dampers<M: Model>(self, model: M, rate: f64) -> f64 {
+        let back = match self.family() {
+            Family::Composition { .. } => Composition::with_order(model, self.order()),
+            _ => None,
+        };
+        0.5 / (back.map_or(0.0, |made| made.longest_step_back()) * rate)
+    }
+
     /// What a step evaluates.
     pub fn evaluation(self) -> Evaluation {
         match self.family() {

@@ -73,6 +73,13 @@ impl<S: Scalar> HingeFactors<S> {
     }
 }
 
+impl HingeFactors<f64> {
+    /// Whether $D > 0$.
+    pub(crate) fn is_positive(&self) -> bool {
+        self.inverse > 0.0
+    }
+}
+
 impl<S: Scalar> Link<S> {
     /// $\Lambda^\ast = \Lambda - \Lambda S D^{-1} S^T \Lambda$ with $S = (s; 0)$; a damper's $h d$ is in $D$, (S23).
     #[inline(always)]

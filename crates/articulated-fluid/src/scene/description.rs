@@ -68,6 +68,8 @@ pub struct SceneBody {
     /// Inertia of the body plus added inertia about its mass centre in the body frame, kg m²:
     /// symmetric, positive definite.
     pub total_inertia: [[f64; 3]; 3],
+    /// How the fluid couples velocity and turning, $C$ of $V \cdot C \Omega$, kg m; zero of bodies with three planes of symmetry.
+    pub coupling: [[f64; 3]; 3],
     /// Mass of the body less that of the displaced fluid, kg; 0 where it is not known, as only without gravity.
     pub net_mass: f64,
     /// Where its buoyancy acts, from the mass centre in the body's frame, m.
@@ -96,6 +98,7 @@ impl SceneBody {
             total_mass: Mat3::diagonal(added.map(|added| mass + added)).0,
             total_inertia: Mat3::diagonal([0, 1, 2].map(|i| dry[i] + wet[i])).0,
             net_mass: net_mass(mass, shape.neutral_mass(density)),
+            coupling: [[0.0; 3]; 3],
             buoyancy_at: [0.0; 3],
             drag: None,
             thrust: None,
@@ -122,6 +125,7 @@ impl SceneBody {
             total_mass,
             total_inertia,
             net_mass,
+            coupling: [[0.0; 3]; 3],
             buoyancy_at: [0.0; 3],
             drag: None,
             thrust: None,

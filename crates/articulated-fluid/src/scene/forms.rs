@@ -98,8 +98,7 @@ fn explicit(table: &Table, name: &str, around: &Surroundings) -> Result<SceneBod
     let field = table.require("mass")?;
     let mass = field.positive()?;
     let inertia = own_inertia(table, &field)?;
-    let added_mass = added(table.get("added_mass"), around)?;
-    let added_inertia = added(table.get("added_inertia"), around)?;
+    let [added_mass, coupling, added_inertia] = all_added(table, around)?;
     let shape = shape(table)?;
     let displaced = displaced(table, shape.as_ref(), around)?;
     let net = displaced.map_or(0.0, |displaced| net_mass(mass, displaced));
@@ -108,10 +107,30 @@ fn explicit(table: &Table, name: &str, around: &Surroundings) -> Result<SceneBod
     match (total_mass, total_inertia, net.is_finite()) {
         (Some(total_mass), Some(total_inertia), true) => {
             let totals = [total_mass, total_inertia];
-            Ok(SceneBody::given(name, shape, Some(mass), totals, net))
+            let body = SceneBody::given(name, shape, Some(mass), totals, net);
+            Ok(SceneBody { coupling, ..body })
         }
         _ => Err(out_of_range(&field)),
     }
+}
+
+/// What the fluid adds to the mass and the inertia, and how it couples them.
+fn all_added(table: &Table, around: &Surroundings) -> Result<[Matrix; 3], SceneError> {
+    let mass = table.get("added_mass");
+    let rows = mass.as_ref().and_then(|mass| mass.elements().ok());
+    let (Some(field), Some(6)) = (&mass, rows.map(|rows| rows.len())) else {
+        let inertia = added(table.get("added_inertia"), around)?;
+        return Ok([added(mass, around)?, [[0.0; 3]; 3], inertia]);
+    };
+    if let Some(inertia) = table.get("added_inertia") {
+        let message = "given together with an added_mass of 6 rows, which has it in it; expected \
+                       one of the two";
+        return Err(inertia.fail(message));
+    }
+    let whole = field.semidefinite_of_six()?;
+    in_fluid(field, around, whole.as_flattened())?;
+    let part = |i: usize, j: usize| [0, 1, 2].map(|k| [0, 1, 2].map(|l| whole[i + k][j + l]));
+    Ok([part(0, 0), part(0, 3), part(3, 3)])
 }
 
 /// What the fluid adds to the mass or the inertia.
@@ -120,12 +139,18 @@ fn added(field: Option<Value>, around: &Surroundings) -> Result<Matrix, SceneErr
         return Ok([[0.0; 3]; 3]);
     };
     let added = field.semidefinite()?;
-    if around.density == 0.0 && added != [[0.0; 3]; 3] {
+    in_fluid(&field, around, added.as_flattened())?;
+    Ok(added)
+}
+
+/// Refuses what a fluid adds where there is none.
+fn in_fluid(field: &Value, around: &Surroundings, added: &[f64]) -> Result<(), SceneError> {
+    if around.density == 0.0 && added.iter().any(|x| *x != 0.0) {
         let message = "not zero, but without a fluid (fluid.density = 0) nothing is added; \
                        expected zero or no such key, or a density > 0";
         return Err(field.fail(message));
     }
-    Ok(added)
+    Ok(())
 }
 
 /// The inertia of a body without fluid.

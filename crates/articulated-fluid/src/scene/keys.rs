@@ -111,10 +111,10 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "body.added_mass",
-        "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers \
-         (symmetric to 1e-3 of the largest, positive semidefinite), in kg",
+        "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers, or of 6 rows of 6 \
+         (symmetric to 1e-3 of the largest, positive semidefinite), in kg, kg m and kg m^2",
         "zero",
-        "added mass in the body's frame, with inertia",
+        "added mass in the body's frame, with inertia; 6 rows have the added inertia in them, translation first, about the mass centre",
     ),
     key(
         "body.added_inertia",

@@ -8,7 +8,7 @@ use super::note::{Correction, PUBLISHED, ROUNDING};
 use super::values::{finite, has_elements};
 
 /// Rows.
-pub(super) type Matrix = [[f64; 3]; 3];
+pub(super) type Matrix<const N: usize = 3> = [[f64; N]; N];
 
 /// Below this multiple of the diagonal element a pivot is rounding.
 const DEFINITE: f64 = 8.0 * f64::EPSILON;
@@ -32,14 +32,34 @@ impl Value<'_> {
         }
     }
 
-    /// A matrix that is symmetric up to the digits of published numbers, made exactly so; the scene notes by how much it was not.
+    /// A symmetric positive semidefinite matrix of 6 rows.
+    pub fn semidefinite_of_six(&self) -> Result<Matrix<6>, SceneError> {
+        let matrix = self.noted(symmetric_part(
+            rows(&self.parts()?).map_err(|what| self.wrong(&what))?,
+        ))?;
+        match is_semidefinite(matrix) {
+            true => Ok(matrix),
+            false => Err(self.wrong("not positive semidefinite")),
+        }
+    }
+
     fn symmetric(&self, on_diagonal: fn(f64) -> bool) -> Result<Matrix, SceneError> {
+        let elements = self.parts()?;
+        self.noted(matrix(&elements, on_diagonal).and_then(symmetric_part))
+    }
+
+    fn parts(&self) -> Result<Vec<Element>, SceneError> {
         let elements = self.elements()?;
         let elements: Result<Vec<_>, _> = elements.iter().map(element).collect();
-        let elements = elements.map_err(|_| self.wrong("wrong type"))?;
-        let (matrix, off) = matrix(&elements, on_diagonal)
-            .and_then(symmetric_part)
-            .map_err(|what| self.wrong(&what))?;
+        elements.map_err(|_| self.wrong("wrong type"))
+    }
+
+    /// A matrix that is symmetric up to the digits of published numbers, made exactly so; the scene notes by how much it was not.
+    fn noted<const N: usize>(
+        &self,
+        found: Result<(Matrix<N>, f64), String>,
+    ) -> Result<Matrix<N>, SceneError> {
+        let (matrix, off) = found.map_err(|what| self.wrong(&what))?;
         if off > ROUNDING {
             self.note(Correction::Symmetrised, off);
         }
@@ -83,22 +103,29 @@ fn matrix(elements: &[Element], on_diagonal: fn(f64) -> bool) -> Result<Matrix, 
                 None => Ok(Mat3::diagonal(values).0),
             }
         }
-        [Element::Row(x), Element::Row(y), Element::Row(z)] => {
-            let row = |index: usize, row: &[f64]| {
-                finite(row).map_err(|what| format!("row {index} {what}"))
-            };
-            Ok([row(1, x)?, row(2, y)?, row(3, z)?])
-        }
-        [_, _, _] => Err("mixes numbers and rows".to_owned()),
-        _ => Err(has_elements(elements.len())),
+        elements => rows(elements),
     }
 }
 
-/// The symmetric part, and how far from it the matrix is relative to its largest element.
-fn symmetric_part(matrix: Matrix) -> Result<(Matrix, f64), String> {
-    let largest = largest(&matrix);
+fn rows<const N: usize>(elements: &[Element]) -> Result<Matrix<N>, String> {
+    let elements: &[Element; N] = elements
+        .try_into()
+        .map_err(|_| has_elements(elements.len()))?;
+    let mut matrix = [[0.0; N]; N];
+    for (i, (element, row)) in elements.iter().zip(&mut matrix).enumerate() {
+        *row = match element {
+            Element::Row(row) => finite(row).map_err(|what| format!("row {} {what}", i + 1))?,
+            Element::Number(_) => return Err("mixes numbers and rows".to_owned()),
+        };
+    }
+    Ok(matrix)
+}
+
+/// The symmetric part, and how far from it the matrix is relative to the largest element of its unit.
+fn symmetric_part<const N: usize>(matrix: Matrix<N>) -> Result<(Matrix<N>, f64), String> {
     let (mut result, mut off) = (matrix, 0.0_f64);
-    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+    for (i, j) in (0..N).flat_map(|i| (i + 1..N).map(move |j| (i, j))) {
+        let largest = block(&matrix, i, j).max(block(&matrix, j, i));
         let (upper, lower) = (matrix[i][j], matrix[j][i]);
         let difference = (upper - lower).abs();
         if difference > PUBLISHED * largest {
@@ -119,31 +146,42 @@ fn symmetric_part(matrix: Matrix) -> Result<(Matrix, f64), String> {
 }
 
 /// Checks that the pivots of the factorisation $L D L^T$ are > 0 beyond rounding.
-fn positive_definite(matrix: Matrix) -> Result<Matrix, String> {
-    let [[a, b, c], [_, d, e], [_, _, f]] = matrix;
-    let second = d - b / a * b;
-    let mixed = e - b / a * c;
-    let third = f - c / a * c - mixed / second * mixed;
-    let pivots = [(a, a), (second, d), (third, f)];
-    let too_small = |&(pivot, scale): &(f64, f64)| !(pivot.is_normal() && pivot > DEFINITE * scale);
-    match pivots.iter().position(too_small) {
-        Some(index) => Err(format!(
-            "not positive definite: pivot {} is {:?}",
-            index + 1,
-            pivots[index].0
-        )),
-        None => Ok(matrix),
+fn positive_definite<const N: usize>(matrix: Matrix<N>) -> Result<Matrix<N>, String> {
+    let mut rest = matrix;
+    for k in 0..N {
+        let pivot = rest[k][k];
+        if !(pivot.is_normal() && pivot > DEFINITE * matrix[k][k]) {
+            let k = k + 1;
+            return Err(format!("not positive definite: pivot {k} is {pivot:?}"));
+        }
+        let row = rest[k];
+        for (i, left) in rest.iter_mut().enumerate().skip(k + 1) {
+            let factor = row[i] / pivot;
+            (k + 1..N).for_each(|j| left[j] -= factor * row[j]);
+        }
     }
+    Ok(matrix)
 }
 
 /// By the pivots of the matrix shifted by what is allowed below zero: those of a singular one are rounding.
-fn is_semidefinite(matrix: Matrix) -> bool {
-    let largest = largest(&matrix);
-    let at = |i: usize, j: usize| matrix[i][j] / largest + f64::from(i == j) * SEMIDEFINITE;
-    let shifted = [0, 1, 2].map(|i| [0, 1, 2].map(|j| at(i, j)));
-    largest == 0.0 || positive_definite(shifted).is_ok()
+fn is_semidefinite<const N: usize>(matrix: Matrix<N>) -> bool {
+    // Each unit on its own: a block of zeros must be zero all along.
+    let size = |i: usize| match block(&matrix, i, i) {
+        0.0 => 1.0,
+        largest => largest.sqrt(),
+    };
+    let mut shifted = matrix;
+    for (i, row) in shifted.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = *entry / size(i) / size(j) + f64::from(i == j) * SEMIDEFINITE;
+        }
+    }
+    positive_definite(shifted).is_ok()
 }
 
-fn largest(matrix: &Matrix) -> f64 {
-    matrix.iter().flatten().fold(0.0, |m, x| m.max(x.abs()))
+/// The largest element of those with the same unit.
+fn block<const N: usize>(matrix: &Matrix<N>, i: usize, j: usize) -> f64 {
+    let part = |i: usize| 3 * (i / 3)..3 * (i / 3) + 3;
+    let entries = matrix[part(i)].iter().flat_map(|row| &row[part(j)]);
+    entries.fold(0.0, |m, x| m.max(x.abs()))
 }

@@ -30,6 +30,7 @@ fn scene(sample: &Sample, velocity: StartVelocity) -> Scene {
             total_mass: body.mass.0,
             total_inertia: body.inertia.0,
             net_mass,
+            coupling: [[0.0; 3]; 3],
             buoyancy_at: [0.0; 3],
             drag: None,
             thrust: None,

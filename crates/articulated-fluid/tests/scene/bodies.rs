@@ -138,8 +138,9 @@ fn bodies_that_cannot_be_are_refused() {
         let keys = format!("mass = 1\ninertia = {inertia}");
         refused(none, &keys, &format!("6:1: {triangle}"));
     }
-    let semidefinite = "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers \
-                        (symmetric to 1e-3 of the largest, positive semidefinite), in kg";
+    let semidefinite = "an array of 3 numbers >= 0 (diagonal) or of 3 rows of 3 numbers, or of 6 \
+                        rows of 6 (symmetric to 1e-3 of the largest, positive semidefinite), in \
+                        kg, kg m and kg m^2";
     for (added, what) in [
         ("[1, -1, 0]", "element 2 is -1.0"),
         (

@@ -260,11 +260,15 @@ fn stretch_body(body: &mut SceneBody, density: f64, value: f64) -> Result<usize,
     semi_axes[longest] *= value;
     match Ellipsoid::new(semi_axes) {
         Ok(stretched) => {
-            *body = SceneBody {
-                attitude: body.attitude,
-                angular_velocity: body.angular_velocity,
-                ..SceneBody::ellipsoid(&name, &stretched, value * mass, density)
-            };
+            let made = SceneBody::ellipsoid(&name, &stretched, value * mass, density);
+            body.form = made.form;
+            body.total_mass = made.total_mass;
+            body.total_inertia = made.total_inertia;
+            body.net_mass = made.net_mass;
+            body.buoyancy_at[longest] *= value;
+            if let Some(thrust) = &mut body.thrust {
+                thrust.at.0[longest] *= value;
+            }
             Ok(longest)
         }
         Err(source) => Err(ParameterError::Ellipsoid {
