@@ -31,6 +31,9 @@ Examples:
   lgvi inspect scenes/planar-fish.toml
   lgvi inspect boat.toml --json | jq -r '.reductions[] | select(.taken) | .name'
 
+Keeps:
+  What every motion of the scene keeps. With drives, motors, dampers, drag or thrust it is the energy less their work.
+
 Reductions:
   translation   x leaves the unknowns: the linear momentum is constant, or grows by the weight's impulse
   joints        one body alone has none

@@ -3,6 +3,7 @@
 #[path = "../model/by_duals.rs"]
 mod by_duals;
 mod coupled;
+mod keeps;
 mod laws;
 mod loads;
 mod planar;

@@ -3,7 +3,7 @@
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use dvi::{State, laws};
 use sim::method::{Conserved, Family};
-use sim::{Method, UnknownMethod};
+use sim::{Choice, Method, Plan, SimError, Simulation, UnknownMethod};
 
 fn paper() -> (ArticulatedBody, State<Configuration>) {
     let text = include_str!("../../../../scenes/fish-chain.toml");
@@ -121,5 +121,56 @@ fn default_steps_are_usable_at_about_the_cost_that_is_told() {
         let ratio = each / f64::from(method.evaluations_per_step());
         println!("{method}: {each:.1} evaluations a step, energy {energy:.1e}");
         assert!((0.5..2.0).contains(&ratio), "{method}: {each}");
+    }
+}
+
+/// A wheel on an axle with a damper, which brakes it at `damping / 2` a second.
+fn wheel(damping: f64) -> Scene {
+    let text = format!(
+        "fluid.density = 0
+        body = [{{ name = 'wheel', mass = 1, inertia = [1.5, 1.5, 2] }}]
+        joint = [{{ parent = 'world', child = 'wheel', at_parent = [0, 0, 0], at_child = [0, 0, 0], type = 'hinge', axis = [0, 0, 1], rate = 1, damping = {damping} }}]"
+    );
+    Scene::parse(&text, "wheel.toml").expect("a scene")
+}
+
+#[test]
+fn compositions_keep_away_from_the_poles_of_dampers() {
+    let scene = wheel(20.0);
+    let (model, start) = (scene.model().unwrap(), scene.initial_state().unwrap());
+    let rate = model.braking_rate(0.0, &start.g).unwrap();
+    // Found to six digits.
+    assert!((rate - 10.0).abs() < 1e-4, "{rate}");
+    let plan = |method: &str, step| Plan {
+        choice: Choice::Method {
+            method: method.parse().unwrap(),
+            step,
+        },
+        until: 1.0,
+        ..Plan::default()
+    };
+    for method in ["composition-4", "composition-6", "composition-8"] {
+        let Err(SimError::DamperPole { longest, .. }) = plan(method, Some(1.0)).resolve(&scene)
+        else {
+            panic!("{method} takes a step over its pole");
+        };
+        // Half of 3.04 / 10 s at order 4.
+        if method == "composition-4" {
+            assert!((longest - 0.152).abs() < 1e-3, "{longest}");
+        }
+        let kept = plan(method, Some(0.99 * longest)).resolve(&scene).unwrap();
+        assert_eq!(kept.step, 0.99 * longest);
+        assert!(plan(method, None).resolve(&scene).unwrap().step <= longest);
+        // With steps a quarter as long, a run is at its order: it stops as exp(-10 t).
+        let mut run = Simulation::new(&scene, &plan(method, Some(0.25 * longest))).unwrap();
+        let end = run.by_ref().last().unwrap().unwrap();
+        let speed = end.velocity.2[0][0];
+        assert!(
+            (speed - (-10.0_f64).exp()).abs() < 1e-4,
+            "{method}: {speed}"
+        );
+    }
+    for method in ["lgvi", "composition-2", "gauss-4"] {
+        plan(method, Some(1.0)).resolve(&scene).unwrap();
     }
 }

@@ -1,8 +1,10 @@
 //! What a body costs: time per evaluation and per step of several methods, and memory, of a chain of ball joints against its number of bodies.
 //!
-//! `cargo run --release -p lgvi-study --example bodies [hinge] [BODIES ...]`: by default 1, 3, 10, 30, 100, 300 and 1000 bodies. The joints
+//! `cargo run --release -p lgvi-study --example bodies [hinge | loads] [BODIES ...]`: by default 1, 3, 10, 30, 100, 300 and 1000 bodies. The joints
 //! are general and the matrices full; the forced chain has a brake on every joint. With `hinge`: chains of other joints beside it, in
-//! nanoseconds per body; NaN where a step is refused. Times are the shortest of repeated runs; their ratios carry over between machines.
+//! nanoseconds per body; NaN where a step is refused. With `loads`: the chain without and with each load on every body or joint. Times are the shortest of repeated runs; their ratios carry over between machines.
+
+mod loads;
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -23,15 +25,19 @@ const LONG: Duration = Duration::from_millis(400);
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut words: Vec<String> = std::env::args().skip(1).collect();
-    let of_hinges = words.first().is_some_and(|word| word == "hinge");
-    words.drain(..usize::from(of_hinges));
+    let what = words.first().filter(|word| word.parse::<usize>().is_err());
+    let what = what.cloned();
+    words.drain(..usize::from(what.is_some()));
     let counts = words.iter().map(|n| n.parse());
     let mut counts = counts.collect::<Result<Vec<usize>, _>>()?;
     if counts.is_empty() {
         counts = vec![1, 3, 10, 30, 100, 300, 1000];
     }
-    if of_hinges {
-        return by_joints(&counts);
+    match what.as_deref() {
+        Some("hinge") => return by_joints(&counts),
+        Some("loads") => return counts.into_iter().try_for_each(loads::by_loads),
+        Some(word) => return Err(format!("{word:?} is neither a number, hinge nor loads").into()),
+        None => {}
     }
     println!(
         "{:>6} | {:>11} {:>8} | {:>11} {:>8} {:>10} | {:>11} {:>13} | {:>9}",
@@ -54,6 +60,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     Ok(())
 }
+
+/// Where a chain starts.
+type Start = State<Configuration>;
 
 /// A name, and the joint of body number k.
 type Kind = (&'static str, fn(usize) -> JointKind);
@@ -111,7 +120,7 @@ fn prescribed(k: usize) -> JointKind {
 fn chain(
     n: usize,
     kind: impl Fn(usize) -> JointKind,
-) -> Result<(ArticulatedBody, State<Configuration>), Box<dyn std::error::Error>> {
+) -> Result<(ArticulatedBody, Start), Box<dyn std::error::Error>> {
     let tilt = |k: usize| SO3::exp(&Tangent([0.3, -0.2, 0.1 + 0.01 * (k % 7) as f64]));
     let turned = |r: SO3, d: [f64; 3]| r.matrix().conjugate(Mat3::diagonal(d));
     let body = |k: usize| {
@@ -205,14 +214,14 @@ fn row(n: usize) -> Result<(), Box<dyn std::error::Error>> {
 /// Seconds of one step.
 fn step(
     mut integrator: impl Integrator<Group = Configuration>,
-    start: &State<Configuration>,
+    start: &Start,
 ) -> Result<f64, StepError> {
     let mut state = start.clone();
     shortest(|| integrator.step(&mut state, H).map(|_| ()))
 }
 
 /// Seconds of one evaluation of velocity and force.
-fn evaluation(model: &ArticulatedBody, state: &State<Configuration>) -> f64 {
+fn evaluation(model: &ArticulatedBody, state: &Start) -> f64 {
     let (mut times, mut workspace) = ([0.0, H].into_iter().cycle(), Default::default());
     let (mut xi, mut tau) = (state.g.zero_algebra(), state.g.zero_dual());
     let evaluated: Result<f64, core::convert::Infallible> = shortest(|| {
