@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 use crate::displaced::{Expansion, Step};
 use crate::inertia::Elimination;
 use crate::kinematics::PerBody;
-use crate::loads::Scenery;
+use crate::loads::{ForceWork, Scenery};
 use crate::pose::Drive;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
@@ -111,12 +111,12 @@ struct ByBody<S> {
     d_f: Vec<Cotangent<3, S>>,
     d_g: Vec<Cotangent<3, S>>,
     /// Of the loads that are no gradient.
-    forces: Vec<Vec3<S>>,
+    forces: ForceWork<S>,
 }
 
 impl<S> Default for ByBody<S> {
     fn default() -> Self {
-        let (d_f, d_g, forces) = (Vec::new(), Vec::new(), Vec::new());
+        let (d_f, d_g, forces) = (Vec::new(), Vec::new(), ForceWork::default());
         Self { d_f, d_g, forces }
     }
 }
@@ -207,7 +207,7 @@ impl ArticulatedBody {
         at: Scenery<S>,
         (dx, h): (Vec3<S>, S),
         moved: &[Moved<S>],
-        work: &mut Vec<Vec3<S>>,
+        work: &mut ForceWork<S>,
         d_g: &mut [Cotangent<3, S>],
     ) -> Vec3<S> {
         let forces = &self.loads.forces;

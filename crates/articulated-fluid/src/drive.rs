@@ -155,7 +155,7 @@ impl ArticulatedBody {
                         load: r[i].rotate(torques[i].vec3()),
                     },
                     (false, Some(joint)) => {
-                        let load = joint.act(at, twist);
+                        let load = joint.act(at, &joint.told(*t), twist);
                         Port {
                             rate: r[i].rotate(load.rate),
                             momentum: Vec3::zero(),

@@ -4,7 +4,7 @@ use dvi::{Context, ContinuousSystem, Lagrangian, ShapeError, System};
 use lie::{Cotangent, Scalar, Vec3};
 
 use crate::inertia::Elimination;
-use crate::loads::Scenery;
+use crate::loads::{ForceWork, Scenery};
 use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
 
@@ -61,7 +61,7 @@ pub struct Evaluation<S = f64> {
     /// On each body about its joint, and on all that hangs on it by no ball.
     pub(crate) torques: Vec<Cotangent<3, S>>,
     /// Of the loads that are no gradient.
-    forces: Vec<Vec3<S>>,
+    forces: ForceWork<S>,
     /// The force on the whole, in the reference frame.
     pub(crate) on_whole: Vec3<S>,
 }
@@ -72,7 +72,7 @@ impl<S: Scalar> Default for Evaluation<S> {
             pose: Pose::default(),
             elimination: Elimination::default(),
             torques: Vec::new(),
-            forces: Vec::new(),
+            forces: ForceWork::default(),
             on_whole: Vec3::zero(),
         }
     }
@@ -104,7 +104,7 @@ impl ArticulatedBody {
         &self,
         at: Scenery<S>,
         elimination: &Elimination<S>,
-        work: &mut Vec<Vec3<S>>,
+        work: &mut ForceWork<S>,
         torques: &mut [Cotangent<3, S>],
     ) -> Vec3<S> {
         let forces = &self.loads.forces;

@@ -62,7 +62,7 @@ pub struct ArticulatedBody {
 pub(crate) struct Identity(u64);
 
 impl Identity {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }

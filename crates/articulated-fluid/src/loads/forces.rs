@@ -3,6 +3,7 @@
 use lie::{Cotangent, Mat3, SO3, Scalar, Vec3};
 
 use super::size::is_size;
+use super::told::{Aim, Told, ToldInJoint};
 use super::{Drag, Servo, Thrust, Torque};
 use crate::motion;
 use crate::tree::{ArticulatedBody, Configuration};
@@ -59,6 +60,22 @@ pub(crate) struct Forces {
     pub(crate) thrusts: Vec<(usize, Thrust)>,
 }
 
+/// What forces are told, and storage for their sums.
+#[derive(Clone, Debug)]
+pub(crate) struct ForceWork<S> {
+    told: Told<S>,
+    sums: Vec<Vec3<S>>,
+}
+
+impl<S> Default for ForceWork<S> {
+    fn default() -> Self {
+        Self {
+            told: Told::default(),
+            sums: Vec::new(),
+        }
+    }
+}
+
 /// When, and in which configuration and attitudes forces act.
 #[derive(Clone, Copy)]
 pub(crate) struct Scenery<'a, S> {
@@ -82,11 +99,17 @@ pub(crate) struct InJoint<S> {
 }
 
 impl LoadedJoint {
+    /// What the load is told at the time `t`.
+    pub(crate) fn told<S: Scalar>(&self, t: S) -> ToldInJoint<S> {
+        self.load.told(t, self.hinge.map(|(_, axis)| axis))
+    }
+
     /// What the load does, (S18)–(S22).
     #[inline(always)]
     pub(crate) fn act<S: Scalar>(
         &self,
         at: Scenery<S>,
+        told: &ToldInJoint<S>,
         twist: impl Fn(usize) -> Twist<S>,
     ) -> InJoint<S> {
         let r = *at.r[self.child].matrix();
@@ -99,38 +122,39 @@ impl LoadedJoint {
             }
         };
         let torque = match self.hinge {
-            None => self.on_ball(at.t, &c, rate),
+            None => self.on_ball(told, &c, rate),
             Some((k, axis)) => {
                 let axis = axis.lift();
                 let turning = [at.g.2[k].0[0], axis.dot(rate)];
-                self.on_hinge(at.t, axis, turning)
+                self.on_hinge(told, axis, turning)
             }
         };
         InJoint { torque, rate, c }
     }
 
     #[inline(always)]
-    fn on_ball<S: Scalar>(&self, t: S, c: &Mat3<S>, rate: Vec3<S>) -> Vec3<S> {
-        let mut sum = rate * S::from_f64(-self.load.damping);
-        if let Some(torque) = &self.load.torque {
-            sum += torque.at(t, Vec3::zero());
+    fn on_ball<S: Scalar>(&self, told: &ToldInJoint<S>, c: &Mat3<S>, rate: Vec3<S>) -> Vec3<S> {
+        let sum = told.torque - rate * S::from_f64(self.load.damping);
+        match (&self.load.servo, &told.aim) {
+            (Some(servo), Aim::Ball(target, turning)) => {
+                sum + servo.on_ball((target, *turning), c, rate)
+            }
+            _ => sum,
         }
-        if let Some(servo) = &self.load.servo {
-            sum += servo.on_ball(t, c, rate);
-        }
-        sum
     }
 
     #[inline(always)]
-    fn on_hinge<S: Scalar>(&self, t: S, axis: Vec3<S>, turning: [S; 2]) -> Vec3<S> {
-        let mut sum = axis * turning[1].times(-self.load.damping);
-        if let Some(torque) = &self.load.torque {
-            sum += torque.at(t, axis);
+    fn on_hinge<S: Scalar>(
+        &self,
+        told: &ToldInJoint<S>,
+        axis: Vec3<S>,
+        turning: [S; 2],
+    ) -> Vec3<S> {
+        let sum = told.torque - axis * turning[1].times(self.load.damping);
+        match (&self.load.servo, &told.aim) {
+            (Some(servo), Aim::Hinge(target)) => sum + axis * servo.on_hinge(*target, turning),
+            _ => sum,
         }
-        if let Some(servo) = &self.load.servo {
-            sum += axis * servo.on_hinge(t, turning);
-        }
-        sum
     }
 }
 
@@ -187,14 +211,15 @@ impl Forces {
         tree: &ArticulatedBody,
         at: Scenery<S>,
         (twist, scale): (impl Fn(usize) -> Twist<S> + Copy, S),
-        work: &mut Vec<Vec3<S>>,
+        ForceWork { told, sums: work }: &mut ForceWork<S>,
         torques: &mut [Cotangent<3, S>],
     ) -> Vec3<S> {
+        told.read(self, (tree.identity, at.t));
         let mut add = |i: usize, torque: Vec3<S>| {
             torques[i] = (torques[i].vec3() + torque * scale).into();
         };
-        for joint in &self.joints {
-            let InJoint { torque, c, .. } = joint.act(at, twist);
+        for (joint, told) in self.joints.iter().zip(&told.joints) {
+            let InJoint { torque, c, .. } = joint.act(at, told, twist);
             add(joint.child, torque);
             if let Some(parent) = joint.parent {
                 add(parent, -(c * torque));
@@ -205,7 +230,9 @@ impl Forces {
         }
         work.clear();
         work.resize(tree.nodes.len(), Vec3::zero());
-        for (i, wrench) in self.drag(twist).chain(self.thrust(at.t)) {
+        let thrusts = self.thrusts.iter().zip(&told.thrusts);
+        let thrusts = thrusts.map(|((i, _), wrench)| (*i, *wrench));
+        for (i, wrench) in self.drag(twist).chain(thrusts) {
             work[i] += wrench[0];
             add(i, wrench[1]);
         }

@@ -9,13 +9,14 @@ mod servo;
 mod size;
 mod spring;
 mod thrust;
+mod told;
 mod torque;
 
 use lie::{Cotangent, Power, Rn, SO3, Scalar, Vec3};
 
 pub use drag::Drag;
 pub use forces::JointLoad;
-pub(crate) use forces::{Forces, OnBody, Scenery, Twist};
+pub(crate) use forces::{ForceWork, Forces, OnBody, Scenery, Twist};
 pub(crate) use gravity::{Weight, moments};
 pub(crate) use hinge_spring::HingeSprings;
 pub use servo::Servo;

@@ -9,7 +9,7 @@ use super::spring::{Spring, Springs};
 use super::{Drag, Thrust};
 use crate::error::ModelError;
 use crate::joints::Role;
-use crate::tree::ArticulatedBody;
+use crate::tree::{ArticulatedBody, Identity};
 
 impl ArticulatedBody {
     /// The same bodies under gravity: on each acts its net mass, that of the body less that of the displaced fluid, kg, times
@@ -153,6 +153,8 @@ impl ArticulatedBody {
             }
         });
         self.loads.forces.joints = joints.collect::<Result<_, _>>()?;
+        // Storage of the tree before has not read these.
+        self.identity = Identity::new();
         Ok(self)
     }
 
@@ -182,6 +184,7 @@ impl ArticulatedBody {
             }
         }
         self.loads.forces.thrusts = thrusts.to_vec();
+        self.identity = Identity::new();
         Ok(self)
     }
 }

@@ -3,6 +3,7 @@
 use lie::{Mat3, Scalar, Vec3};
 
 use super::size::is_size;
+use super::told::Aim;
 use crate::motion::Motion;
 
 /// A motor in a joint that pulls it towards a told attitude, and brakes what moves otherwise.
@@ -27,11 +28,26 @@ impl Servo {
         of_hinge == is_hinge && is_size(self.stiffness) && is_size(self.damping)
     }
 
+    /// What it follows at the time `t`.
+    pub(super) fn aim<S: Scalar>(&self, t: S) -> Aim<S> {
+        match &self.target {
+            Motion::Hinge { .. } => Aim::Hinge(self.target.angle(t)),
+            _ => {
+                let (target, rate) = self.target.at(t);
+                Aim::Ball(*target.matrix(), rate)
+            }
+        }
+    }
+
     /// The torque on the child of a ball, in its frame.
     #[inline(always)]
-    pub(super) fn on_ball<S: Scalar>(&self, t: S, c: &Mat3<S>, omega: Vec3<S>) -> Vec3<S> {
-        let (target, rate) = self.target.at(t);
-        let e = target.matrix().transpose() * *c;
+    pub(super) fn on_ball<S: Scalar>(
+        &self,
+        (target, rate): (&Mat3<S>, Vec3<S>),
+        c: &Mat3<S>,
+        omega: Vec3<S>,
+    ) -> Vec3<S> {
+        let e = target.transpose() * *c;
         let pull = e.skew_vee() * S::from_f64(0.5 * self.stiffness);
         let slip = omega - e.transpose_mul(rate);
         -(pull + slip * S::from_f64(self.damping))
@@ -39,8 +55,7 @@ impl Servo {
 
     /// The torque about the axis of a hinge at this angle and rate.
     #[inline(always)]
-    pub(super) fn on_hinge<S: Scalar>(&self, t: S, [q, rate]: [S; 2]) -> S {
-        let [angle, turning] = self.target.angle(t);
+    pub(super) fn on_hinge<S: Scalar>(&self, [angle, turning]: [S; 2], [q, rate]: [S; 2]) -> S {
         -((q - angle).times(self.stiffness) + (rate - turning).times(self.damping))
     }
 }
