@@ -8,6 +8,7 @@ use smallvec::SmallVec;
 
 use crate::displaced::{Expansion, Step};
 use crate::inertia::Elimination;
+use crate::joints::{Any, Balls, Damped, Kinds};
 use crate::kinematics::PerBody;
 use crate::loads::{ForceWork, Scenery};
 use crate::pose::Drive;
@@ -38,7 +39,7 @@ impl ArticulatedBody {
             if self.is_coupled {
                 sum += (b - turned).dot(
                     node.coupling
-                        .apply(step.turn(i).skew_vee() * S::from_f64(0.5)),
+                        .apply(step.turn::<Any>(i).skew_vee() * S::from_f64(0.5)),
                 );
             }
         }
@@ -85,7 +86,7 @@ pub struct StepWorkspace<S = f64> {
     expansion: Expansion<S>,
     by_body: ByBody<S>,
     /// $\mathbb I(g_k)$, factorised once a step, and $R_0$ there.
-    inertia: Elimination<S, true>,
+    inertia: Elimination<S>,
     r0: SO3<S>,
     /// $\sum_i R_i M_i R_i^T$, to solve (31) for $\Delta x$.
     total_mass: Ldl3<S>,
@@ -124,10 +125,12 @@ impl<S> Default for ByBody<S> {
 impl ArticulatedBody {
     /// The displacements that the turns alone make, $\Delta x = 0$, from the first body on.
     #[inline(always)]
-    fn displace<S: Scalar>(&self, step: Step<S>, moved: &mut Vec<Moved<S>>) {
-        moved.resize(self.nodes.len(), [Vec3::zero(); 6]);
+    fn displace<K: Kinds, S: Scalar>(&self, step: Step<S>, moved: &mut Vec<Moved<S>>) {
+        if moved.len() != self.nodes.len() {
+            moved.resize(self.nodes.len(), [Vec3::zero(); 6]);
+        }
         for (i, node) in self.nodes.iter().enumerate() {
-            let e = step.turn(i);
+            let e = step.turn::<K>(i);
             let b = match i {
                 0 => Vec3::zero(),
                 _ => {
@@ -143,11 +146,11 @@ impl ArticulatedBody {
 
     /// $\sum_i R_i M_i Y_i$ of these displacements.
     #[inline(always)]
-    fn turning_momentum<S: Scalar>(&self, r: &[SO3<S>], moved: &[Moved<S>]) -> Vec3<S> {
+    fn turning_momentum<K: Kinds, S: Scalar>(&self, r: &[SO3<S>], moved: &[Moved<S>]) -> Vec3<S> {
         let bodies = moved.iter().zip(r).enumerate();
         bodies.fold(Vec3::zero(), |sum, (i, (moved, r))| {
             let momentum = self.masses[i].apply(moved[4]);
-            sum + r.rotate(match self.is_coupled {
+            sum + r.rotate(match self.couples::<K>() {
                 true => momentum + self.turned_momentum(i, moved),
                 false => momentum,
             })
@@ -164,7 +167,7 @@ impl ArticulatedBody {
 
     /// (29)–(33) from the displacements, to which that of the base is added: momenta, back from the leaves.
     #[inline(always)]
-    fn collect<S: Scalar>(
+    fn collect<K: Kinds, S: Scalar>(
         &self,
         (t, g): (S, &Configuration<S>),
         step: Step<S>,
@@ -179,19 +182,24 @@ impl ArticulatedBody {
     ) {
         let Derivatives { d_f, d_g, .. } = out;
         let at = Scenery { t, g, r: step.r };
-        let (on_base, pushed) = if self.has_inner() {
+        let (on_base, pushed) = if !K::ARE_BALLS && self.has_inner() {
             own_f.resize(self.nodes.len(), Cotangent::zero());
             own_g.resize(self.nodes.len(), Cotangent::zero());
-            let on_base = self.collect_by_body(step, dx, h, moved, [&mut *own_f, &mut *own_g]);
-            let pushed = self.push(at, (dx, h), moved, forces, own_g);
+            let on_base =
+                self.collect_by_body::<K, S>(step, dx, h, moved, [&mut *own_f, &mut *own_g]);
+            let pushed = self.push::<K, S>(at, (dx, h), moved, forces, own_g);
             self.gather_derivatives(step, [own_f, own_g], [&mut *d_f, &mut *d_g]);
             self.loads.add_to_hinges(&g.2, h, &mut d_g.2);
             (on_base, pushed)
         } else {
-            let on_base = self.collect_by_body(step, dx, h, moved, [&mut d_f.0, &mut d_g.0]);
-            (on_base, self.push(at, (dx, h), moved, forces, &mut d_g.0))
+            let on_base =
+                self.collect_by_body::<K, S>(step, dx, h, moved, [&mut d_f.0, &mut d_g.0]);
+            (
+                on_base,
+                self.push::<K, S>(at, (dx, h), moved, forces, &mut d_g.0),
+            )
         };
-        if self.is_free() {
+        if self.floats::<K>() {
             d_f.1[0] = on_base.into();
             let falling = self.loads.force().map(|force| force * h);
             d_g.1[0] = (falling.unwrap_or(Vec3::zero()) + pushed).into();
@@ -202,7 +210,7 @@ impl ArticulatedBody {
     ///
     /// Each acts on a joint's two bodies at one instant, so that the momentum is kept whatever is solved, (S19).
     #[inline(always)]
-    fn push<S: Scalar>(
+    fn push<K: Kinds, S: Scalar>(
         &self,
         at: Scenery<S>,
         (dx, h): (Vec3<S>, S),
@@ -211,7 +219,7 @@ impl ArticulatedBody {
         d_g: &mut [Cotangent<3, S>],
     ) -> Vec3<S> {
         let forces = &self.loads.forces;
-        if forces.are_none() {
+        if K::ARE_BALLS || forces.are_none() {
             return Vec3::zero();
         }
         let rate = S::one() / h;
@@ -227,7 +235,7 @@ impl ArticulatedBody {
 
     /// The derivatives by the attitudes of all bodies; the one by the base is returned.
     #[inline(always)]
-    fn collect_by_body<S: Scalar>(
+    fn collect_by_body<K: Kinds, S: Scalar>(
         &self,
         step: Step<S>,
         dx: Vec3<S>,
@@ -245,7 +253,7 @@ impl ArticulatedBody {
             let (b, y) = (b + shift, y + shift);
             let (mut mb, mut my) = (self.masses[i].apply(b), self.masses[i].apply(y));
             let mut turned = rotation_momentum(node.jd, &e);
-            if self.is_coupled {
+            if self.couples::<K>() {
                 let own = self.turned_momentum(i, &moved[i]);
                 (mb, my) = (mb + own, my + own);
                 turned += coupled_rotation(node.coupling, &e, y);
@@ -278,6 +286,54 @@ impl ArticulatedBody {
     }
 }
 
+impl ArticulatedBody {
+    /// Whether it is a simple tree on which nothing acts but weight and springs.
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        self.is_simple() && !self.is_coupled && !self.has_forces()
+    }
+
+    /// (31) $= p_x$, and the impulse of the weight with it, solved for $\Delta x$.
+    #[inline(always)]
+    fn eliminate_with<K: Kinds>(
+        &self,
+        work: &mut StepWorkspace,
+        ((t, g, mu), h): ((f64, &Configuration, &Momentum), f64),
+        f: &mut Configuration,
+        c: &mut Velocity,
+        out: &mut Derivatives<Configuration, f64>,
+    ) {
+        let step = self.step((t, h), g, (&f.0, &f.2), &mut work.expansion);
+        self.displace::<K, f64>(step, &mut work.moved);
+        let mut shift = step.shift;
+        if self.floats::<K>() {
+            let mut rest =
+                mu.1[0].vec3() * h - self.turning_momentum::<K, f64>(step.r, &work.moved);
+            if let Some(force) = self.loads.force::<f64>() {
+                rest += force * (h * h);
+            }
+            shift = work.total_mass.solve(rest);
+            (f.1[0], c.1[0]) = (shift.into(), shift.into());
+        }
+        let (moved, by_body) = (&mut work.moved, &mut work.by_body);
+        self.collect::<K, f64>((t, g), step, (shift, h), moved, by_body, out);
+    }
+
+    /// Whether inertia is coupled.
+    #[inline(always)]
+    fn couples<K: Kinds>(&self) -> bool {
+        !K::ARE_BALLS && self.is_coupled
+    }
+
+    /// What moves as told is at rest: the matrix of a step.
+    #[inline(always)]
+    fn solve_with<K: Kinds>(&self, work: &mut StepWorkspace, mu: &Momentum, xi: &mut Velocity) {
+        let still = Drive::at_rest();
+        work.inertia.begin::<K>(self, &work.r0, still, mu);
+        work.inertia.finish::<K>(self, &work.r0, still, xi);
+    }
+}
+
 impl DiscreteLagrangian for ArticulatedBody {
     type Workspace<S: Scalar> = StepWorkspace<S>;
     const HAS_INERTIA: bool = true;
@@ -307,33 +363,38 @@ impl DiscreteLagrangian for ArticulatedBody {
         out: &mut Derivatives<Configuration, S>,
     ) {
         let step = self.step((at.t, h), g, (&f.0, &f.2), &mut work.expansion);
-        self.displace(step, &mut work.moved);
+        self.displace::<Any, S>(step, &mut work.moved);
         let shift = (self.base_shift(step, f), h);
         let (moved, by_body) = (&mut work.moved, &mut work.by_body);
-        self.collect((at.t, g), step, shift, moved, by_body, out);
+        self.collect::<Any, S>((at.t, g), step, shift, moved, by_body, out);
     }
 
     fn is_defined(&self, t: f64, _: &Configuration, _: &Still<Configuration>) -> bool {
-        self.knows(t)
+        self.is_plain() || self.knows(t)
     }
 
     #[inline(always)]
     fn factorise(&self, (t, h): (f64, f64), g: &Configuration, work: &mut StepWorkspace) {
         let (r, pose) = self.pose(t, g, &mut work.expansion.now);
         work.r0 = r[0];
-        work.inertia.resist(self, h);
-        work.inertia.factorise(self, r, &pose.c);
+        match self.is_plain() {
+            true => work.inertia.factorise::<Balls>(self, r, &pose.c),
+            false => {
+                work.inertia.resist(self, h);
+                work.inertia.factorise::<Damped>(self, r, &pose.c);
+            }
+        }
         if self.is_free() {
             work.total_mass = self.total_mass(r).ldl();
         }
     }
 
-    /// What moves as told is at rest: the matrix of a step.
     #[inline(always)]
     fn solve(&self, work: &mut StepWorkspace, mu: &Momentum, xi: &mut Velocity) {
-        let still = Drive::at_rest();
-        work.inertia.begin(self, &work.r0, still, mu);
-        work.inertia.finish(self, &work.r0, still, xi);
+        match self.is_plain() {
+            true => self.solve_with::<Balls>(work, mu, xi),
+            false => self.solve_with::<Damped>(work, mu, xi),
+        }
     }
 
     fn solve_cyclic(&self, work: &mut StepWorkspace, mu: &Momentum, xi: &mut Velocity) {
@@ -350,7 +411,6 @@ impl DiscreteLagrangian for ArticulatedBody {
         }
     }
 
-    /// (31) $= p_x$, and the impulse of the weight with it, solved for $\Delta x$.
     #[inline(always)]
     fn eliminate(
         &self,
@@ -360,18 +420,9 @@ impl DiscreteLagrangian for ArticulatedBody {
         c: &mut Velocity,
         out: &mut Derivatives<Configuration, f64>,
     ) {
-        let step = self.step((*t, h), g, (&f.0, &f.2), &mut work.expansion);
-        self.displace(step, &mut work.moved);
-        let mut shift = step.shift;
-        if self.is_free() {
-            let mut rest = mu.1[0].vec3() * h - self.turning_momentum(step.r, &work.moved);
-            if let Some(force) = self.loads.force::<f64>() {
-                rest += force * (h * h);
-            }
-            shift = work.total_mass.solve(rest);
-            (f.1[0], c.1[0]) = (shift.into(), shift.into());
+        match self.is_plain() {
+            true => self.eliminate_with::<Balls>(work, ((*t, g, mu), h), f, c, out),
+            false => self.eliminate_with::<Damped>(work, ((*t, g, mu), h), f, c, out),
         }
-        let (moved, by_body) = (&mut work.moved, &mut work.by_body);
-        self.collect((*t, g), step, (shift, h), moved, by_body, out);
     }
 }

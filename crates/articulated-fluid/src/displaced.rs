@@ -2,7 +2,7 @@
 
 use lie::{Cotangent, Mat3, Rn, SO3, Scalar, Vec3};
 
-use crate::joints::Role;
+use crate::joints::{Any, Kinds, Role};
 use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum};
 
@@ -51,8 +51,8 @@ pub(crate) struct Step<'a, S> {
 impl<S: Scalar> Step<'_, S> {
     /// $F_i - I$.
     #[inline(always)]
-    pub(crate) fn turn(&self, i: usize) -> Mat3<S> {
-        match self.e.get(i) {
+    pub(crate) fn turn<K: Kinds>(&self, i: usize) -> Mat3<S> {
+        match self.e.get(i).filter(|_| !K::ARE_BALLS) {
             Some(e) => *e,
             None => self.f[i].minus_identity(),
         }
@@ -151,8 +151,8 @@ impl ArticulatedBody {
                 true => step.f[i].rotate(plus),
                 false => plus,
             };
-            self.project(i, minus + at_start, d_g);
-            if self.project(i, plus, d_f) {
+            self.project::<Any, S>(i, minus + at_start, d_g);
+            if self.project::<Any, S>(i, plus, d_f) {
                 let parent = node.parent;
                 let on_parent = step.next.c[i].rotate(plus);
                 n_plus[parent] = (n_plus[parent].vec3() + on_parent).into();

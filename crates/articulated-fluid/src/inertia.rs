@@ -7,14 +7,14 @@ use core::ops::Add;
 use lie::{Cotangent, Ldl3, SO3, Scalar, Sym3, Vec3};
 
 use crate::error::ModelError;
-use crate::joints::{HingeFactors, Link};
+use crate::joints::{Damped, HingeFactors, Kinds, Link};
 use crate::loads::Twist;
 use crate::pose::{Drive, Pose};
 use crate::tree::{ArticulatedBody, Configuration, Identity, Momentum, Velocity};
 
-/// The inertia at a configuration, factorised, with the storage for solves; with dampers in the matrix of a step, (S23), where `DAMPED`.
+/// The inertia at a configuration, factorised, with the storage for solves.
 #[derive(Clone, Debug)]
-pub(crate) struct Elimination<S = f64, const DAMPED: bool = false> {
+pub(crate) struct Elimination<S = f64> {
     /// What the links were made for.
     tree: Option<Identity>,
     links: Vec<Link<S>>,
@@ -25,7 +25,7 @@ pub(crate) struct Elimination<S = f64, const DAMPED: bool = false> {
     resistances: Vec<S>,
 }
 
-impl<S: Scalar, const DAMPED: bool> Default for Elimination<S, DAMPED> {
+impl<S: Scalar> Default for Elimination<S> {
     fn default() -> Self {
         Self {
             tree: None,
@@ -37,7 +37,7 @@ impl<S: Scalar, const DAMPED: bool> Default for Elimination<S, DAMPED> {
     }
 }
 
-impl Elimination<f64, true> {
+impl Elimination {
     /// Whether the matrix is positive definite, once it is factorised.
     fn is_definite(&self, tree: &ArticulatedBody) -> bool {
         let bodies = tree.nodes.iter().zip(&self.links);
@@ -57,11 +57,11 @@ impl ArticulatedBody {
     /// [`ModelError::Shape`] where the configuration is not one of this model.
     pub fn braking_rate(&self, t: f64, g: &Configuration) -> Result<f64, ModelError> {
         self.check(g)?;
-        let (mut work, mut pose) = (Elimination::<f64, true>::default(), Pose::default());
+        let (mut work, mut pose) = (Elimination::default(), Pose::default());
         let (r, pose) = self.pose(t, g, &mut pose);
         let mut is_beyond = |h: f64| {
             work.resist(self, -h);
-            work.factorise(self, r, &pose.c);
+            work.factorise::<Damped>(self, r, &pose.c);
             !work.is_definite(self)
         };
         let doublings = (-60..60).map(|k| f64::from(k).exp2());
@@ -82,7 +82,7 @@ impl ArticulatedBody {
     }
 }
 
-impl<S: Scalar> Elimination<S, true> {
+impl<S: Scalar> Elimination<S> {
     /// Puts the dampers of a step of `h` into the matrix, (S23), which is factorised after this.
     pub(crate) fn resist(&mut self, tree: &ArticulatedBody, h: S) {
         self.resistances.clear();
@@ -98,11 +98,11 @@ impl<S: Scalar> Elimination<S, true> {
 const BISECTIONS: u32 = 20;
 
 /// Masses and momenta, from the leaves to the first body.
-impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
+impl<S: Scalar> Elimination<S> {
     /// $h d$ of the joint of body `i`.
     #[inline(always)]
-    fn resistance(&self, i: usize) -> Option<S> {
-        match DAMPED {
+    fn resistance<K: Kinds>(&self, i: usize) -> Option<S> {
+        match K::ARE_DAMPED {
             true => self.resistances.get(i).copied(),
             false => None,
         }
@@ -126,24 +126,34 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
 
     /// Eliminates the bodies from the leaves on. Those without children on balls stay as they were made.
     #[inline(always)]
-    pub(crate) fn factorise(&mut self, tree: &ArticulatedBody, r: &[SO3<S>], c: &[SO3<S>]) {
+    pub(crate) fn factorise<K: Kinds>(
+        &mut self,
+        tree: &ArticulatedBody,
+        r: &[SO3<S>],
+        c: &[SO3<S>],
+    ) {
         self.prepare(tree);
         for i in (1..tree.nodes.len()).rev() {
-            self.factorise_link(tree, i, (r, c));
+            self.factorise_link::<K>(tree, i, (r, c));
         }
-        self.factorise_base(tree);
+        self.factorise_base::<K>(tree);
     }
 
     #[inline(always)]
-    fn factorise_link(&mut self, tree: &ArticulatedBody, i: usize, (r, c): (&[SO3<S>], &[SO3<S>])) {
+    fn factorise_link<K: Kinds>(
+        &mut self,
+        tree: &ArticulatedBody,
+        i: usize,
+        (r, c): (&[SO3<S>], &[SO3<S>]),
+    ) {
         let node = &tree.nodes[i];
         if node.is_last_sibling {
             self.links[node.parent].reset(&tree.nodes[node.parent], &tree.masses[node.parent]);
         }
-        let resistance = self.resistance(i);
-        tree.eliminate_mass(i, resistance, &mut self.links[i], &mut self.hinges);
+        let resistance = self.resistance::<K>(i);
+        tree.eliminate_mass::<K, S>(i, resistance, &mut self.links[i], &mut self.hinges);
         let (parent, link) = self.joint(i, node.parent);
-        if node.role.is_root() {
+        if tree.role::<K>(i).is_root() {
             link.c = r[node.parent].matrix().transpose() * *r[i].matrix();
             match resistance {
                 None => parent.carry_mass(link, node.lever.lift()),
@@ -156,40 +166,40 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
     }
 
     #[inline(always)]
-    fn factorise_base(&mut self, tree: &ArticulatedBody) {
-        let resistance = self.resistance(0);
-        tree.eliminate_mass(0, resistance, &mut self.links[0], &mut self.hinges);
-        if tree.is_free() {
+    fn factorise_base<K: Kinds>(&mut self, tree: &ArticulatedBody) {
+        let resistance = self.resistance::<K>(0);
+        tree.eliminate_mass::<K, S>(0, resistance, &mut self.links[0], &mut self.hinges);
+        if tree.floats::<K>() {
             self.base = self.links[0].mass.ldl();
         }
     }
 
     /// Eliminates the momenta from the leaves on, and finds the first body's velocity.
     #[inline(always)]
-    pub(crate) fn begin(
+    pub(crate) fn begin<K: Kinds>(
         &mut self,
         tree: &ArticulatedBody,
         r0: &SO3<S>,
         drive: Drive<S>,
         mu: &Momentum<S>,
     ) {
-        self.read_momenta(tree, mu);
+        self.read_momenta::<K>(tree, mu);
         for i in (1..tree.nodes.len()).rev() {
-            self.eliminate_momentum(tree, i, drive, mu);
+            self.eliminate_momentum::<K>(tree, i, drive, mu);
         }
-        self.begin_base(tree, r0, drive, mu);
+        self.begin_base::<K>(tree, r0, drive, mu);
     }
 
     #[inline(always)]
-    fn read_momenta(&mut self, tree: &ArticulatedBody, mu: &Momentum<S>) {
+    fn read_momenta<K: Kinds>(&mut self, tree: &ArticulatedBody, mu: &Momentum<S>) {
         for (i, link) in self.links.iter_mut().enumerate() {
             link.force = Vec3::zero();
-            link.w = tree.own_momentum(i, mu);
+            link.w = tree.own_momentum::<K, S>(i, mu);
         }
     }
 
     #[inline(always)]
-    fn eliminate_momentum(
+    fn eliminate_momentum<K: Kinds>(
         &mut self,
         tree: &ArticulatedBody,
         i: usize,
@@ -197,10 +207,10 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
         mu: &Momentum<S>,
     ) {
         let node = &tree.nodes[i];
-        tree.eliminate_force(i, (drive, mu), &mut self.links[i], &mut self.hinges);
-        let resistance = self.resistance(i);
+        tree.eliminate_force::<K, S>(i, (drive, mu), &mut self.links[i], &mut self.hinges);
+        let resistance = self.resistance::<K>(i);
         let (parent, link) = self.joint(i, node.parent);
-        match node.role.is_root() {
+        match tree.role::<K>(i).is_root() {
             true => parent.carry_force(link, node.lever.lift()),
             false => return parent.carry_wrench(link, node.lever.lift()),
         }
@@ -210,15 +220,15 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
     }
 
     #[inline(always)]
-    fn begin_base(
+    fn begin_base<K: Kinds>(
         &mut self,
         tree: &ArticulatedBody,
         r0: &SO3<S>,
         drive: Drive<S>,
         mu: &Momentum<S>,
     ) {
-        tree.eliminate_force(0, (drive, mu), &mut self.links[0], &mut self.hinges);
-        let u = match tree.is_free() {
+        tree.eliminate_force::<K, S>(0, (drive, mu), &mut self.links[0], &mut self.hinges);
+        let u = match tree.floats::<K>() {
             true => {
                 let rest = r0.inverse_rotate(mu.1[0].vec3()) - self.links[0].force;
                 self.base.solve(rest)
@@ -226,12 +236,12 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
             false => r0.inverse_rotate(drive.place),
         };
         let handed = (Vec3::zero(), u);
-        tree.advance(0, handed, drive, &mut self.links[0], &mut self.hinges);
+        tree.advance::<K, S>(0, handed, drive, &mut self.links[0], &mut self.hinges);
     }
 
     /// [`factorise`](Self::factorise) and [`begin`](Self::begin) in one pass, the momenta of a body while its factors are at hand.
     #[inline(always)]
-    pub(crate) fn factorise_and_begin(
+    pub(crate) fn factorise_and_begin<K: Kinds>(
         &mut self,
         tree: &ArticulatedBody,
         (r, c): (&[SO3<S>], &[SO3<S>]),
@@ -239,13 +249,13 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
         mu: &Momentum<S>,
     ) {
         self.prepare(tree);
-        self.read_momenta(tree, mu);
+        self.read_momenta::<K>(tree, mu);
         for i in (1..tree.nodes.len()).rev() {
-            self.factorise_link(tree, i, (r, c));
-            self.eliminate_momentum(tree, i, drive, mu);
+            self.factorise_link::<K>(tree, i, (r, c));
+            self.eliminate_momentum::<K>(tree, i, drive, mu);
         }
-        self.factorise_base(tree);
-        self.begin_base(tree, &r[0], drive, mu);
+        self.factorise_base::<K>(tree);
+        self.begin_base::<K>(tree, &r[0], drive, mu);
     }
 
     /// The links of body `i` and of its `parent`.
@@ -257,23 +267,28 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
 }
 
 /// Velocities, from the first body to the leaves.
-impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
+impl<S: Scalar> Elimination<S> {
     /// The velocity of body `i`'s joint, from its parent's velocity; then its own. What the parent hands on is returned.
     #[inline(always)]
-    fn advance(&mut self, tree: &ArticulatedBody, i: usize, drive: Drive<S>) -> (Vec3<S>, Vec3<S>) {
+    fn advance<K: Kinds>(
+        &mut self,
+        tree: &ArticulatedBody,
+        i: usize,
+        drive: Drive<S>,
+    ) -> (Vec3<S>, Vec3<S>) {
         let node = &tree.nodes[i];
-        let resistance = self.resistance(i);
+        let resistance = self.resistance::<K>(i);
         let (parent, link) = self.joint(i, node.parent);
         let u = parent.joint_velocity(link, node.at_parent.lift());
-        let turning = match node.role.is_root() && resistance.is_none() {
+        let turning = match tree.role::<K>(i).is_root() && resistance.is_none() {
             true => Vec3::zero(),
             false => link.c.transpose_mul(parent.omega),
         };
-        if let Some(by) = resistance.filter(|_| node.role.is_root()) {
+        if let Some(by) = resistance.filter(|_| tree.role::<K>(i).is_root()) {
             link.w += link.ldl.solve(turning * by);
         }
         let handed = (turning, u);
-        tree.advance(i, handed, drive, &mut self.links[i], &mut self.hinges);
+        tree.advance::<K, S>(i, handed, drive, &mut self.links[i], &mut self.hinges);
         handed
     }
 
@@ -284,38 +299,38 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
     }
 
     #[inline(always)]
-    fn write(&self, tree: &ArticulatedBody, i: usize, xi: &mut Velocity<S>) {
-        tree.write_velocity(i, &self.links[i], &self.hinges, xi);
+    fn write<K: Kinds>(&self, tree: &ArticulatedBody, i: usize, xi: &mut Velocity<S>) {
+        tree.write_velocity::<K, S>(i, &self.links[i], &self.hinges, xi);
     }
 
     #[inline(always)]
-    fn write_base(&self, tree: &ArticulatedBody, r0: &SO3<S>, xi: &mut Velocity<S>) {
-        self.write(tree, 0, xi);
-        if tree.is_free() {
+    fn write_base<K: Kinds>(&self, tree: &ArticulatedBody, r0: &SO3<S>, xi: &mut Velocity<S>) {
+        self.write::<K>(tree, 0, xi);
+        if tree.floats::<K>() {
             xi.1[0] = r0.rotate(self.links[0].v).into();
         }
     }
 
     /// The velocities from the first body on, into `xi`: $\mathbb I(g) \xi = \mu$ is solved.
     #[inline(always)]
-    pub(crate) fn finish(
+    pub(crate) fn finish<K: Kinds>(
         &mut self,
         tree: &ArticulatedBody,
         r0: &SO3<S>,
         drive: Drive<S>,
         xi: &mut Velocity<S>,
     ) {
-        self.write_base(tree, r0, xi);
+        self.write_base::<K>(tree, r0, xi);
         for i in 1..self.links.len() {
-            self.advance(tree, i, drive);
-            self.write(tree, i, xi);
+            self.advance::<K>(tree, i, drive);
+            self.write::<K>(tree, i, xi);
         }
     }
 
     /// The velocities likewise, and the forces (11)–(13) on each body about its joint:
     /// $\tau_i = M_i V_i \times u_i + \sum_{k \text{ on } i} (\Omega_i \times l_k) \times C_k F_k$.
     #[inline(always)]
-    pub(crate) fn finish_with_forces(
+    pub(crate) fn finish_with_forces<K: Kinds>(
         &mut self,
         tree: &ArticulatedBody,
         r0: &SO3<S>,
@@ -323,21 +338,21 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
         xi: &mut Velocity<S>,
         tau: &mut [Cotangent<3, S>],
     ) {
-        self.write_base(tree, r0, xi);
-        let u = match tree.is_free() {
+        self.write_base::<K>(tree, r0, xi);
+        let u = match tree.floats::<K>() {
             true => self.links[0].v,
             false => r0.inverse_rotate(drive.place),
         };
         let base = &self.links[0];
         tau[0] = tree.momentum(0, base.omega, base.v).cross(u).into();
-        tree.force_on_joint(0, (Vec3::zero(), u), base, &mut self.hinges);
+        tree.force_on_joint::<K, S>(0, (Vec3::zero(), u), base, &mut self.hinges);
         for i in 1..self.links.len() {
-            let (turning, u) = self.advance(tree, i, drive);
-            self.write(tree, i, xi);
+            let (turning, u) = self.advance::<K>(tree, i, drive);
+            self.write::<K>(tree, i, xi);
             let (node, link) = (&tree.nodes[i], &self.links[i]);
             let momentum = tree.momentum(i, link.omega, link.v);
             tau[i] = momentum.cross(u).into();
-            let force = tree.force_on_joint(i, (turning, u), link, &mut self.hinges);
+            let force = tree.force_on_joint::<K, S>(i, (turning, u), link, &mut self.hinges);
             let on_parent = link.c * force;
             let turned = self.links[node.parent].omega.cross(node.lever.lift());
             let tau = &mut tau[node.parent];
@@ -348,7 +363,7 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
     /// What the joints make of these moments on the bodies, $T_i = \tau_i + \sum_k C_k T_k$ over those that hang on $i$ by no ball:
     /// that of a root, and of a hinge $s \cdot (T_j + n_j \times \Omega_j)$, (S14).
     #[inline(always)]
-    pub(crate) fn gather(
+    pub(crate) fn gather<K: Kinds>(
         &self,
         tree: &ArticulatedBody,
         tau: &mut [Cotangent<3, S>],
@@ -356,8 +371,8 @@ impl<S: Scalar, const DAMPED: bool> Elimination<S, DAMPED> {
     ) {
         for (i, node) in tree.nodes.iter().enumerate().rev() {
             let (own, link) = (tau[i].vec3(), &self.links[i]);
-            let transport = tree.transport(i, link, &self.hinges);
-            if tree.project(i, own + transport, out) {
+            let transport = tree.transport::<K, S>(i, link, &self.hinges);
+            if tree.project::<K, S>(i, own + transport, out) {
                 let on_parent = tau[node.parent].vec3() + self.links[i].c * own;
                 tau[node.parent] = on_parent.into();
             }

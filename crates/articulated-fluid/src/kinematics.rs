@@ -4,6 +4,7 @@ use lie::{LieGroup, Power, SO3, Scalar, Sym3, Vec3};
 use smallvec::SmallVec;
 
 use crate::error::ModelError;
+use crate::joints::Any;
 use crate::node::Node;
 use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
@@ -266,7 +267,7 @@ impl ArticulatedBody {
     fn gather_momenta(&self, pose: &Pose<f64>, (p, linear): (PerBody<Vec3>, Vec3)) -> Momentum {
         let mut momenta = self.aligned().zero_dual();
         for (i, n) in self.outer_momenta(pose, p).iter().enumerate() {
-            self.project(i, *n, &mut momenta);
+            self.project::<Any, f64>(i, *n, &mut momenta);
         }
         if self.is_free() {
             momenta.1[0] = linear.into();

@@ -4,6 +4,7 @@ use dvi::{Context, ContinuousSystem, Lagrangian, ShapeError, System};
 use lie::{Cotangent, Scalar, Vec3};
 
 use crate::inertia::Elimination;
+use crate::joints::Any;
 use crate::loads::{ForceWork, Scenery};
 use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
@@ -92,8 +93,8 @@ impl ArticulatedBody {
         } = work;
         let (r, pose) = self.pose(at.t, g, pose);
         let drive = pose.drive();
-        elimination.factorise_and_begin(self, (r, &pose.c), drive, mu);
-        elimination.finish(self, &r[0], drive, xi);
+        elimination.factorise_and_begin::<Any>(self, (r, &pose.c), drive, mu);
+        elimination.finish::<Any>(self, &r[0], drive, xi);
     }
 }
 
@@ -143,18 +144,18 @@ impl ContinuousSystem for ArticulatedBody {
         } = work;
         let (r, pose) = self.pose(at.t, g, pose);
         let drive = pose.drive();
-        elimination.factorise_and_begin(self, (r, &pose.c), drive, mu);
+        elimination.factorise_and_begin::<Any>(self, (r, &pose.c), drive, mu);
         let scenery = Scenery { t: at.t, g, r };
         *on_whole = self.loads.force().unwrap_or(Vec3::zero());
         if self.has_inner() {
             torques.resize(r.len(), Cotangent::zero());
-            elimination.finish_with_forces(self, &r[0], drive, xi, torques);
+            elimination.finish_with_forces::<Any>(self, &r[0], drive, xi, torques);
             self.loads.add_torques(r, S::one(), torques);
             *on_whole += self.force(scenery, elimination, forces, torques);
-            elimination.gather(self, torques, tau);
+            elimination.gather::<Any>(self, torques, tau);
             self.loads.add_to_hinges(&g.2, S::one(), &mut tau.2);
         } else {
-            elimination.finish_with_forces(self, &r[0], drive, xi, &mut tau.0);
+            elimination.finish_with_forces::<Any>(self, &r[0], drive, xi, &mut tau.0);
             self.loads.add_torques(r, S::one(), &mut tau.0);
             *on_whole += self.force(scenery, elimination, forces, &mut tau.0);
         }

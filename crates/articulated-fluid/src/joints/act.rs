@@ -2,7 +2,7 @@
 
 use lie::{Mat3, SO3, Scalar, Vec3};
 
-use super::{HingeFactors, Link, Role};
+use super::{HingeFactors, Kinds, Link, Role};
 use crate::displaced::Angles;
 use crate::pose::{Drive, Pose};
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
@@ -74,13 +74,13 @@ impl ArticulatedBody {
 
     /// Writes what the joint of body `i` makes of a moment on it; whether the parent takes it over.
     #[inline(always)]
-    pub(crate) fn project<S: Scalar>(
+    pub(crate) fn project<K: Kinds, S: Scalar>(
         &self,
         i: usize,
         moment: Vec3<S>,
         out: &mut Momentum<S>,
     ) -> bool {
-        match self.nodes[i].role {
+        match self.role::<K>(i) {
             Role::Ball(k) => {
                 out.0[k] = moment.into();
                 return false;
@@ -93,8 +93,8 @@ impl ArticulatedBody {
 
     /// The momentum of what the joint of body `i` leaves whole: of a ball.
     #[inline(always)]
-    pub(crate) fn own_momentum<S: Scalar>(&self, i: usize, mu: &Momentum<S>) -> Vec3<S> {
-        match self.nodes[i].role {
+    pub(crate) fn own_momentum<K: Kinds, S: Scalar>(&self, i: usize, mu: &Momentum<S>) -> Vec3<S> {
+        match self.role::<K>(i) {
             Role::Ball(k) => mu.0[k].vec3(),
             _ => Vec3::zero(),
         }
@@ -102,7 +102,7 @@ impl ArticulatedBody {
 
     /// What the joint of body `i` leaves free, eliminated from the mass; with $h d$ of a damper in it, (S23).
     #[inline(always)]
-    pub(crate) fn eliminate_mass<S: Scalar>(
+    pub(crate) fn eliminate_mass<K: Kinds, S: Scalar>(
         &self,
         i: usize,
         resistance: Option<S>,
@@ -110,7 +110,7 @@ impl ArticulatedBody {
         hinges: &mut [HingeFactors<S>],
     ) {
         let node = &self.nodes[i];
-        let is_root = node.role.is_root();
+        let is_root = self.role::<K>(i).is_root();
         // Balls without children stay as they were made, but for a damper, which knows the step.
         if is_root && node.is_leaf && resistance.is_none() {
             return;
@@ -121,7 +121,7 @@ impl ArticulatedBody {
         if is_root {
             return link.eliminate(resistance);
         }
-        if let Role::Hinge(k) = node.role {
+        if let Role::Hinge(k) = self.role::<K>(i) {
             let axis = self.joints.hinges[k].axis.lift();
             link.eliminate_hinge(axis, resistance, &mut hinges[k]);
         }
@@ -129,14 +129,14 @@ impl ArticulatedBody {
 
     /// What the joint of body `i` leaves free, eliminated from the momenta.
     #[inline(always)]
-    pub(crate) fn eliminate_force<S: Scalar>(
+    pub(crate) fn eliminate_force<K: Kinds, S: Scalar>(
         &self,
         i: usize,
         (drive, mu): (Drive<S>, &Momentum<S>),
         link: &mut Link<S>,
         hinges: &mut [HingeFactors<S>],
     ) {
-        match self.nodes[i].role {
+        match self.role::<K>(i) {
             Role::Ball(_) => link.eliminate_force(),
             Role::Hinge(k) => {
                 let axis = self.joints.hinges[k].axis.lift();
@@ -148,7 +148,7 @@ impl ArticulatedBody {
 
     /// The velocity of body `i` from the parent's rate in its frame and the velocity of its joint.
     #[inline(always)]
-    pub(crate) fn advance<S: Scalar>(
+    pub(crate) fn advance<K: Kinds, S: Scalar>(
         &self,
         i: usize,
         (turning, u): (Vec3<S>, Vec3<S>),
@@ -157,7 +157,7 @@ impl ArticulatedBody {
         hinges: &mut [HingeFactors<S>],
     ) {
         let node = &self.nodes[i];
-        match node.role {
+        match self.role::<K>(i) {
             Role::Ball(_) => return link.advance(u, node.at_self.lift()),
             Role::Hinge(k) => {
                 let axis = self.joints.hinges[k].axis.lift();
@@ -170,14 +170,14 @@ impl ArticulatedBody {
 
     /// Writes the velocity of what the joint of body `i` leaves free.
     #[inline(always)]
-    pub(crate) fn write_velocity<S: Scalar>(
+    pub(crate) fn write_velocity<K: Kinds, S: Scalar>(
         &self,
         i: usize,
         link: &Link<S>,
         hinges: &[HingeFactors<S>],
         xi: &mut Velocity<S>,
     ) {
-        match self.nodes[i].role {
+        match self.role::<K>(i) {
             Role::Ball(k) => xi.0[k] = link.omega.into(),
             Role::Hinge(k) => xi.2[k][0] = hinges[k].rate,
             Role::Prescribed(_) => {}
@@ -186,14 +186,14 @@ impl ArticulatedBody {
 
     /// The force on the joint of body `i`, from what the parent hands on; a hinge keeps the moment.
     #[inline(always)]
-    pub(crate) fn force_on_joint<S: Scalar>(
+    pub(crate) fn force_on_joint<K: Kinds, S: Scalar>(
         &self,
         i: usize,
         (turning, u): (Vec3<S>, Vec3<S>),
         link: &Link<S>,
         hinges: &mut [HingeFactors<S>],
     ) -> Vec3<S> {
-        let role = self.nodes[i].role;
+        let role = self.role::<K>(i);
         if role.is_root() {
             return link.mass * u + link.force;
         }
@@ -206,13 +206,13 @@ impl ArticulatedBody {
 
     /// $n_i \times \Omega_i$ of a hinge, which turns with its body, (S14).
     #[inline(always)]
-    pub(crate) fn transport<S: Scalar>(
+    pub(crate) fn transport<K: Kinds, S: Scalar>(
         &self,
         i: usize,
         link: &Link<S>,
         hinges: &[HingeFactors<S>],
     ) -> Vec3<S> {
-        match self.nodes[i].role {
+        match self.role::<K>(i) {
             Role::Hinge(k) => hinges[k].moment.cross(link.omega),
             _ => Vec3::zero(),
         }

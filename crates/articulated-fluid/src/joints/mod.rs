@@ -12,6 +12,7 @@ mod act;
 mod ball;
 mod given;
 mod hinge;
+mod kinds;
 mod link;
 
 use lie::{SO3, Vec3};
@@ -19,6 +20,7 @@ use lie::{SO3, Vec3};
 use crate::motion::Motion;
 pub use hinge::Hinge;
 pub(crate) use hinge::HingeFactors;
+pub(crate) use kinds::{Any, Balls, Damped, Kinds};
 pub(crate) use link::Link;
 
 /// What a joint leaves free.

@@ -7,7 +7,7 @@ mod path;
 use lie::RealGroup;
 
 use crate::State;
-pub(crate) use check::finite;
+pub(crate) use check::{check_call, check_shape, finite};
 pub use check::{check_momentum, check_step};
 pub use error::{Cause, Hint, StepError};
 pub use path::Path;

@@ -85,7 +85,7 @@ impl<L: DiscreteLagrangian> Matrix<L> {
 
     /// Whether [`derivatives`](Self::derivatives) solves for coordinates.
     #[inline(always)]
-    fn eliminates(&self, lagrangian: &L) -> bool {
+    pub(super) fn eliminates(&self, lagrangian: &L) -> bool {
         L::HAS_INERTIA && !self.keeps_all && !lagrangian.eliminated().is_empty()
     }
 
@@ -153,7 +153,7 @@ impl<L: DiscreteLagrangian> Matrix<L> {
         }
     }
 
-    /// The correction of the cyclic coordinates alone, zero elsewhere; false where [`derivatives`](Self::derivatives) has solved them.
+    /// The correction of the cyclic coordinates alone, zero elsewhere; false where there are none to correct.
     pub(super) fn solve_cyclic(
         &mut self,
         lagrangian: &L,
@@ -162,7 +162,7 @@ impl<L: DiscreteLagrangian> Matrix<L> {
         delta: &mut Algebra<L>,
     ) -> bool {
         let cyclic = cyclic(lagrangian, delta.dim());
-        if cyclic.is_empty() || self.keeps_all || self.eliminates(lagrangian) {
+        if cyclic.is_empty() || self.keeps_all {
             return false;
         }
         match &mut self.exact {

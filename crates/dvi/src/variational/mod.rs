@@ -9,7 +9,7 @@ mod warm_start;
 
 use lie::{LieGroup, VectorSpace};
 
-use crate::step::{check_momentum, check_step, finite};
+use crate::step::{check_call, check_shape, check_step, finite};
 use crate::{
     Cause, DiscreteLagrangian, FirstVariation, Hint, Integrator, Pair, State, StepError,
     StepReport, Still, Variation, legendre_plus,
@@ -213,14 +213,15 @@ impl<L: DiscreteLagrangian> Variational<L> {
 
     /// From the extrapolated guess, and from no displacement where that leads nowhere or astray.
     fn try_to_solve(&mut self, state: &State<L::Group>, h: f64) -> Result<StepReport, Cause> {
-        check_step(&self.lagrangian, (state.t, &state.g), h)?;
+        // Of numbers that are not finite, the first residual or the end of the step is not.
+        check_call(&self.lagrangian, (state.t, &state.g), h)?;
         let fits = |work: &Work<L>| work.next.same_shape(&state.g);
         if !self.work.as_ref().is_some_and(fits) {
             self.work = None;
         }
         let lagrangian = &self.lagrangian;
         let work = Self::work_of(lagrangian, &mut self.work, (state, h), self.keeps_all);
-        check_momentum(&state.mu, &work.balance.residual)?;
+        check_shape(&state.mu, &work.balance.residual)?;
         let few = (state.mu.dim() as f64 / FEW).sqrt().max(1.0);
         let goal = Goal {
             tolerance: self.tolerance.unwrap_or(TOLERANCE * few),

@@ -467,6 +467,9 @@ impl<L: DiscreteLagrangian> Work<L> {
     /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance; the iterations, or none where they
     /// are not solved.
     fn finish_cyclic(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) -> Option<u32> {
+        if self.matrix.eliminates(lagrangian) {
+            return Some(0);
+        }
         let cyclic = cyclic(lagrangian, self.coordinates.len());
         let mut last = f64::INFINITY;
         for iterations in 0..=MAX_ITERATIONS {
