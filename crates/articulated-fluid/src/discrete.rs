@@ -287,12 +287,6 @@ impl ArticulatedBody {
 }
 
 impl ArticulatedBody {
-    /// Whether it is a simple tree on which nothing acts but weight and springs.
-    #[inline(always)]
-    fn is_plain(&self) -> bool {
-        self.is_simple() && !self.is_coupled && !self.has_forces()
-    }
-
     /// (31) $= p_x$, and the impulse of the weight with it, solved for $\Delta x$.
     #[inline(always)]
     fn eliminate_with<K: Kinds>(
@@ -317,12 +311,6 @@ impl ArticulatedBody {
         }
         let (moved, by_body) = (&mut work.moved, &mut work.by_body);
         self.collect::<K, f64>((t, g), step, (shift, h), moved, by_body, out);
-    }
-
-    /// Whether inertia is coupled.
-    #[inline(always)]
-    fn couples<K: Kinds>(&self) -> bool {
-        !K::ARE_BALLS && self.is_coupled
     }
 
     /// What moves as told is at rest: the matrix of a step.

@@ -344,13 +344,13 @@ impl<S: Scalar> Elimination<S> {
             false => r0.inverse_rotate(drive.place),
         };
         let base = &self.links[0];
-        tau[0] = tree.momentum(0, base.omega, base.v).cross(u).into();
+        tau[0] = tree.momentum::<K, S>(0, base.omega, base.v).cross(u).into();
         tree.force_on_joint::<K, S>(0, (Vec3::zero(), u), base, &mut self.hinges);
         for i in 1..self.links.len() {
             let (turning, u) = self.advance::<K>(tree, i, drive);
             self.write::<K>(tree, i, xi);
             let (node, link) = (&tree.nodes[i], &self.links[i]);
-            let momentum = tree.momentum(i, link.omega, link.v);
+            let momentum = tree.momentum::<K, S>(i, link.omega, link.v);
             tau[i] = momentum.cross(u).into();
             let force = tree.force_on_joint::<K, S>(i, (turning, u), link, &mut self.hinges);
             let on_parent = link.c * force;
@@ -383,9 +383,14 @@ impl<S: Scalar> Elimination<S> {
 impl ArticulatedBody {
     /// $M_i V_i + C_i \Omega_i$.
     #[inline(always)]
-    pub(crate) fn momentum<S: Scalar>(&self, i: usize, omega: Vec3<S>, v: Vec3<S>) -> Vec3<S> {
+    pub(crate) fn momentum<K: Kinds, S: Scalar>(
+        &self,
+        i: usize,
+        omega: Vec3<S>,
+        v: Vec3<S>,
+    ) -> Vec3<S> {
         let momentum = self.masses[i].apply(v);
-        match self.is_coupled {
+        match self.couples::<K>() {
             true => momentum + self.nodes[i].coupling.apply(omega),
             false => momentum,
         }

@@ -235,7 +235,7 @@ impl ArticulatedBody {
         for (i, (omega, v)) in rates.iter().zip(&mut momenta).enumerate() {
             let node = &self.nodes[i];
             p.push(node.j * *omega + node.coupling.transpose_mul(*v));
-            *v = self.momentum(i, *omega, *v);
+            *v = self.momentum::<Any, f64>(i, *omega, *v);
         }
         for (i, node) in self.nodes.iter().enumerate().skip(1).rev() {
             let force = r[i].rotate(momenta[i]);

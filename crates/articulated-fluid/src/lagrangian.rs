@@ -4,7 +4,7 @@ use dvi::{Context, ContinuousSystem, Lagrangian, ShapeError, System};
 use lie::{Cotangent, Scalar, Vec3};
 
 use crate::inertia::Elimination;
-use crate::joints::Any;
+use crate::joints::{Any, Balls, Kinds};
 use crate::loads::{ForceWork, Scenery};
 use crate::pose::Pose;
 use crate::tree::{ArticulatedBody, Configuration, Momentum, Velocity};
@@ -101,7 +101,7 @@ impl ArticulatedBody {
 impl ArticulatedBody {
     /// Adds the torques of what is no gradient; the force on the whole is returned.
     #[inline(always)]
-    fn force<S: Scalar>(
+    fn force<K: Kinds, S: Scalar>(
         &self,
         at: Scenery<S>,
         elimination: &Elimination<S>,
@@ -109,11 +109,52 @@ impl ArticulatedBody {
         torques: &mut [Cotangent<3, S>],
     ) -> Vec3<S> {
         let forces = &self.loads.forces;
-        if forces.are_none() {
+        if K::ARE_BALLS || forces.are_none() {
             return Vec3::zero();
         }
         let twist = |i: usize| elimination.twist(i);
         forces.add(self, at, (twist, S::one()), work, torques)
+    }
+}
+
+impl ArticulatedBody {
+    /// Velocity and force, where so much is known of the joints.
+    #[inline(always)]
+    fn evaluate<K: Kinds, S: Scalar>(
+        &self,
+        at: Context<S>,
+        (g, mu): (&Configuration<S>, &Momentum<S>),
+        work: &mut Evaluation<S>,
+        xi: &mut Velocity<S>,
+        tau: &mut Momentum<S>,
+    ) {
+        let Evaluation {
+            pose,
+            elimination,
+            torques,
+            forces,
+            on_whole,
+        } = work;
+        let (r, pose) = self.pose(at.t, g, pose);
+        let drive = pose.drive();
+        elimination.factorise_and_begin::<K>(self, (r, &pose.c), drive, mu);
+        let scenery = Scenery { t: at.t, g, r };
+        *on_whole = self.loads.force().unwrap_or(Vec3::zero());
+        if !K::ARE_BALLS && self.has_inner() {
+            torques.resize(r.len(), Cotangent::zero());
+            elimination.finish_with_forces::<K>(self, &r[0], drive, xi, torques);
+            self.loads.add_torques(r, S::one(), torques);
+            *on_whole += self.force::<K, S>(scenery, elimination, forces, torques);
+            elimination.gather::<K>(self, torques, tau);
+            self.loads.add_to_hinges(&g.2, S::one(), &mut tau.2);
+        } else {
+            elimination.finish_with_forces::<K>(self, &r[0], drive, xi, &mut tau.0);
+            self.loads.add_torques(r, S::one(), &mut tau.0);
+            *on_whole += self.force::<K, S>(scenery, elimination, forces, &mut tau.0);
+        }
+        if self.floats::<K>() {
+            tau.1[0] = (*on_whole).into();
+        }
     }
 }
 
@@ -135,32 +176,9 @@ impl ContinuousSystem for ArticulatedBody {
         xi: &mut Velocity<S>,
         tau: &mut Momentum<S>,
     ) {
-        let Evaluation {
-            pose,
-            elimination,
-            torques,
-            forces,
-            on_whole,
-        } = work;
-        let (r, pose) = self.pose(at.t, g, pose);
-        let drive = pose.drive();
-        elimination.factorise_and_begin::<Any>(self, (r, &pose.c), drive, mu);
-        let scenery = Scenery { t: at.t, g, r };
-        *on_whole = self.loads.force().unwrap_or(Vec3::zero());
-        if self.has_inner() {
-            torques.resize(r.len(), Cotangent::zero());
-            elimination.finish_with_forces::<Any>(self, &r[0], drive, xi, torques);
-            self.loads.add_torques(r, S::one(), torques);
-            *on_whole += self.force(scenery, elimination, forces, torques);
-            elimination.gather::<Any>(self, torques, tau);
-            self.loads.add_to_hinges(&g.2, S::one(), &mut tau.2);
-        } else {
-            elimination.finish_with_forces::<Any>(self, &r[0], drive, xi, &mut tau.0);
-            self.loads.add_torques(r, S::one(), &mut tau.0);
-            *on_whole += self.force(scenery, elimination, forces, &mut tau.0);
-        }
-        if self.is_free() {
-            tau.1[0] = (*on_whole).into();
+        match self.is_plain() {
+            true => self.evaluate::<Balls, S>(at, (g, mu), work, xi, tau),
+            false => self.evaluate::<Any, S>(at, (g, mu), work, xi, tau),
         }
     }
 }

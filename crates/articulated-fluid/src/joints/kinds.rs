@@ -50,4 +50,16 @@ impl ArticulatedBody {
     pub(crate) fn floats<K: Kinds>(&self) -> bool {
         K::ARE_BALLS || self.is_free()
     }
+
+    /// Whether it is a simple tree on which nothing acts but weight and springs.
+    #[inline(always)]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.is_simple() && !self.is_coupled && !self.has_forces()
+    }
+
+    /// Whether inertia is coupled.
+    #[inline(always)]
+    pub(crate) fn couples<K: Kinds>(&self) -> bool {
+        !K::ARE_BALLS && self.is_coupled
+    }
 }
