@@ -69,8 +69,8 @@ pub use pilot::{Pilot, PilotError};
 pub use step::{Cause, Hint, Integrator, Path, StepError, StepReport, check_momentum, check_step};
 pub use system::{
     Adjoint, AdjointWorkspace, Context, ContinuousSystem, Derivatives, DiscreteForce,
-    DiscreteLagrangian, Discretised, DiscretisedWorkspace, Force, Forced, ForcedWorkspace,
-    HamiltonianSystem, Lagrangian, LeftTranslation, LegendreWorkspace, Pair, Quadrature,
+    DiscreteLagrangian, Discretised, DiscretisedWorkspace, DualSystem, Force, Forced, ForcedWorkspace,
+    HamiltonianSystem, HamiltonianWorkspace, Lagrangian, LeftTranslation, LegendreWorkspace, Means, Pair, Quadrature,
     RightTranslation, ShapeError, State, Still, Symmetry, System, TracedError, TracedSystem,
     TracedWorkspace, legendre_minus, legendre_plus, momentum_map,
 };

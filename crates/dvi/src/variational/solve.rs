@@ -273,7 +273,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             report: StepReport {
                 iterations,
                 residual,
-                evaluations: 0,
+                ..StepReport::default()
             },
             at,
             turns: 0,
@@ -364,7 +364,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             report: StepReport {
                 iterations,
                 residual,
-                evaluations: 0,
+                ..StepReport::default()
             },
             at: End::Solved,
             turns,
