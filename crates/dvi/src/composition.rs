@@ -1,7 +1,6 @@
 //! Symmetric composition: higher order from a discrete Lagrangian and its adjoint.
 
 use lie::{LieGroup, VectorSpace};
-
 use crate::{
     Adjoint, DiscreteLagrangian, FirstVariation, Integrator, Path, State, StepError, StepReport,
     Variation, Variational,
@@ -176,6 +175,7 @@ impl<L: DiscreteLagrangian> Composition<L> {
             total.iterations += report.iterations;
             total.evaluations += report.evaluations;
             total.residual = total.residual.max(report.residual);
+            total.means = report.means;
         };
         let solved = self.parts.iter_mut().try_for_each(|part| {
             let (method, length) = (Half::Method(&mut part.method), part.length * h);

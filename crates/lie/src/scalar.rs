@@ -140,6 +140,16 @@ pub trait Scalar:
     /// `yes` where the mask holds, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// This number where `by` is larger than `least` in magnitude, or is no number; none elsewhere.
+    ///
+    /// It guards a domain, such as that of a chart. A recording, which has no value to look at, always gives a number: one that will be
+    /// no number outside the domain.
+    #[inline(always)]
+    fn guarded(self, by: Self, least: f64) -> Option<Self> {
+        let outside = by.magnitude() <= least;
+        (!outside).then_some(self)
+    }
+
     /// Runs `f` compiled for the instructions of this scalar, as far as `f` and all it calls is inlined; see [`Batch::run`](crate::Batch::run).
     ///
     /// So a function over any scalar need not be inlined itself.

@@ -10,7 +10,7 @@ use super::continuous::{ContinuousSystem, Means};
 use super::dual_system::{DualSystem, LegendreWorkspace, velocity_and_force as by_duals};
 use super::lagrangian::Lagrangian;
 use super::state::State;
-use super::traced::{Cache, Pivot, Programs, TracedError, TracedWorkspace, read_rates, without_inertia};
+use super::traced::{Cache, Pivot, Programs, TracedError, TracedWorkspace, Whose, read_rates, without_inertia};
 
 /// The Hamiltonian system of a Lagrangian, $\mu = \mathbf D_\xi L$.
 ///
@@ -91,7 +91,7 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
     /// What is recorded for the shape of `g`.
     fn programs(&self, g: &L::Group) -> Result<Arc<Programs>, TracedError> {
         self.recorded
-            .of_shape(g, || Programs::of(&self.lagrangian, g))
+            .find(g, Whose::THE_ONLY, || Programs::of(&self.lagrangian, g))
     }
 }
 
@@ -162,7 +162,7 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
         let why = match self.programs(g).map(|programs| programs.pivot(at, g)) {
             Ok(Some((coordinate, Pivot::Negative))) => {
                 let why = TracedError::Indefinite { coordinate };
-                self.recorded.refuse(g, why);
+                self.recorded.refuse(g, Whose::THE_ONLY, why);
                 why
             }
             Ok(_) => return Means::Recorded,

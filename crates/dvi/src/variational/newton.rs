@@ -7,7 +7,7 @@ use lie::{AlgebraOver, Cayley, DualOver, Jet, LieGroup, Lu, Over, RealGroup, Sca
 use super::balance::Balance;
 use crate::numerics::degenerate::without_inertia;
 use crate::numerics::duals::{add_constant, for_each_chunk, lift, set_columns};
-use crate::system::{Algebra, Dual};
+use crate::system::{Algebra, DiscreteCache, Dual};
 use crate::{Context, Derivatives, DiscreteLagrangian, State};
 
 type J = <f64 as Scalar>::Jet;
@@ -41,6 +41,7 @@ pub(crate) struct Newton<L: DiscreteLagrangian> {
     /// A column of the matrix: in the frame of the step's end, of its start, and in the chart.
     column: [Dual<L>; 3],
     f: L::Group,
+    cache: DiscreteCache<L::Group>,
 }
 
 /// The cyclic coordinates of a Lagrangian, as far as there are such among `dim`.
@@ -50,7 +51,7 @@ pub(super) fn cyclic<L: DiscreteLagrangian>(lagrangian: &L, dim: usize) -> Range
 }
 
 impl<L: DiscreteLagrangian> Newton<L> {
-    pub(crate) fn new(lagrangian: &L, g: &L::Group) -> Self {
+    pub(crate) fn new(lagrangian: &L, g: &L::Group, cache: DiscreteCache<L::Group>) -> Self {
         let dim = g.zero_dual().dim();
         let cyclic = cyclic(lagrangian, dim);
         let (f, column) = (g.clone(), core::array::from_fn(|_| g.zero_dual()));
@@ -63,7 +64,8 @@ impl<L: DiscreteLagrangian> Newton<L> {
             known: false,
             h: 1.0,
             scale: 1.0,
-            balance: Balance::new(&g),
+            balance: Balance::new(&g, cache.clone()),
+            cache,
             mu: g.zero_dual(),
             c: g.zero_algebra(),
             g,
@@ -105,7 +107,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
     ) {
         if self.inertia.is_none() {
             let [mut inertia, longer] =
-                VANISHING.map(|part| inertia(lagrangian, state, part * h.abs()));
+                VANISHING.map(|part| inertia(lagrangian, state, part * h.abs(), &self.cache));
             self.degenerate = without_inertia(&inertia, &longer);
             self.inertia = Some(index(&mut inertia));
         }
@@ -204,11 +206,12 @@ pub(crate) fn degenerate<L: DiscreteLagrangian>(
     lagrangian: &L,
     state: &State<L::Group>,
     h: f64,
+    cache: &DiscreteCache<L::Group>,
 ) -> Option<usize> {
     if state.mu.dim() > DENSE_LIMIT {
         return None;
     }
-    let [short, long] = VANISHING.map(|part| inertia(lagrangian, state, part * h));
+    let [short, long] = VANISHING.map(|part| inertia(lagrangian, state, part * h, cache));
     without_inertia(&short, &long)
 }
 
@@ -216,10 +219,16 @@ pub(crate) fn degenerate<L: DiscreteLagrangian>(
 const VANISHING: [f64; 2] = [1e-8, 1e-6];
 
 /// $h\, \mathbf D_f (\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d)$ at $f = e$: for a short step the inertia.
-fn inertia<L: DiscreteLagrangian>(lagrangian: &L, state: &State<L::Group>, h: f64) -> Lu<f64> {
+fn inertia<L: DiscreteLagrangian>(
+    lagrangian: &L,
+    state: &State<L::Group>,
+    h: f64,
+    cache: &DiscreteCache<L::Group>,
+) -> Lu<f64> {
     let g = state.g.lift::<J>();
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
-    let (mut derivatives, mut work) = (Derivatives::new(&g), Default::default());
+    let mut derivatives = Derivatives::with_cache(&g, cache.clone());
+    let mut work = Default::default();
     let mut parameters = Vec::new();
     lift(lagrangian.parameters(), J::constant, &mut parameters);
     let dim = c.dim();

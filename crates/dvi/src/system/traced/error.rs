@@ -28,6 +28,12 @@ pub enum TracedError {
         /// The most operations that are written out.
         limit: usize,
     },
+    /// Another formula, or another shape, was to be recorded again and again.
+    #[error("another formula or shape was recorded {times} times: one that stays the same is worth it alone")]
+    Changes {
+        /// How often.
+        times: u32,
+    },
     /// The inertia is not positive definite.
     #[error(
         "the inertia has a pivot that is not positive, at coordinate {coordinate}: elimination without exchanges of rows is not safe"

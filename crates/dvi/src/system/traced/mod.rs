@@ -2,6 +2,7 @@
 
 mod cache;
 mod compile;
+mod discrete;
 mod elements;
 mod error;
 mod inertia;
@@ -13,8 +14,9 @@ use std::sync::Arc;
 use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 use trace::{Program, record};
 
-pub(crate) use self::cache::Cache;
+pub(crate) use self::cache::{Cache, Whose};
 pub(crate) use self::compile::Programs;
+pub(crate) use self::discrete::{DiscreteCache, DiscreteRecording};
 use self::compile::{Layout, compile};
 pub use self::error::TracedError;
 pub use self::storage::TracedWorkspace;
