@@ -22,10 +22,10 @@ pub(super) struct Linearised<L: DiscreteLagrangian> {
 }
 
 impl<L: DiscreteLagrangian> Linearised<L> {
-    pub(super) fn new(lagrangian: &L, state: &L::Group, cache: DiscreteCache<L::Group>) -> Self {
+    pub(super) fn new(state: &L::Group, cache: DiscreteCache<L::Group>) -> Self {
         let varied = Varied::new(state);
         Self {
-            newton: Newton::new(lagrangian, state, cache.clone()),
+            newton: Newton::new(state, cache.clone()),
             balance: Balance::new(&varied.g, cache),
             c: varied.g.zero_algebra(),
             delta: state.zero_algebra(),

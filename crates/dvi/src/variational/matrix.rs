@@ -5,7 +5,6 @@ use core::ops::Range;
 use lie::VectorSpace;
 
 use super::newton::{DENSE_LIMIT, Newton, cyclic};
-use crate::numerics::duals::in_duals;
 use crate::system::{Algebra, DiscreteCache, Dual};
 use crate::{Context, Derivatives, DiscreteLagrangian, State};
 
@@ -31,14 +30,13 @@ impl<L: DiscreteLagrangian> Matrix<L> {
     pub(super) const SLOW: f64 = if L::HAS_INERTIA { 0.6 } else { 0.2 };
 
     pub(super) fn new(
-        lagrangian: &L,
         g: &L::Group,
         (cache, keeps_all): (DiscreteCache<L::Group>, bool),
     ) -> Self {
         Self {
             h: 0.0,
             keeps_all,
-            exact: (!L::HAS_INERTIA).then(|| Newton::new(lagrangian, g, cache.clone())),
+            exact: (!L::HAS_INERTIA).then(|| Newton::new(g, cache.clone())),
             cache,
             takes_exact: !L::HAS_INERTIA,
             evaluations: 0,
@@ -123,11 +121,11 @@ impl<L: DiscreteLagrangian> Matrix<L> {
         if L::HAS_INERTIA && c.dim() > DENSE_LIMIT {
             return false;
         }
-        let new = || Newton::new(lagrangian, &state.g, self.cache.clone());
+        let new = || Newton::new(&state.g, self.cache.clone());
         let exact = self.exact.get_or_insert_with(new);
         exact.renew(lagrangian, state, h, c);
         self.takes_exact = true;
-        self.evaluations += in_duals(c.dim());
+        self.evaluations += exact.evaluations();
         true
     }
 

@@ -5,6 +5,7 @@ mod linearised;
 mod matrix;
 mod newton;
 mod solve;
+mod sparsity;
 mod warm_start;
 
 use lie::{LieGroup, VectorSpace};
@@ -356,7 +357,7 @@ impl<L: DiscreteLagrangian> FirstVariation for Variational<L> {
         let report = self.solve(state, h)?;
         let mut carried = variations.to_vec();
         let fits = |known: &Linearised<L>| known.fits(&state.g);
-        let new = || Linearised::new(&self.lagrangian, &state.g, self.cache.clone());
+        let new = || Linearised::new(&state.g, self.cache.clone());
         let mut linearised = self.linearised.take().filter(fits).unwrap_or_else(new);
         let lagrangian = &self.lagrangian;
         let work = Self::work_of(lagrangian, &mut self.work, (state, h), (&self.cache, self.keeps_all));

@@ -155,7 +155,7 @@ impl<L: DiscreteLagrangian> Work<L> {
         (cache, keeps_all): (DiscreteCache<L::Group>, bool),
     ) -> Self {
         let c = g.zero_algebra();
-        let matrix = Matrix::new(lagrangian, g, (cache.clone(), keeps_all));
+        let matrix = Matrix::new(g, (cache.clone(), keeps_all));
         let weights = weights(lagrangian, (t, h), g, cache.clone());
         let driven = weights.clone().filter(|_| lagrangian.is_driven());
         Self {
@@ -536,14 +536,17 @@ fn weights<L: DiscreteLagrangian>(
     let mut derivatives = Derivatives::with_cache(g, cache);
     let mut work = Default::default();
     let at = Context::new(t, lagrangian.parameters());
-    let mut momentum = |displacement: f64, i: usize| {
+    let mut momenta = |displacement: f64, i: usize| {
         c.set_zero();
-        c.set(i, displacement);
+        if displacement != 0.0 {
+            c.set(i, displacement);
+        }
         L::Group::retract_into::<Cayley>(&c, &mut f);
         lagrangian.derivatives(at, g, &f, SHORT * h, &mut work, &mut derivatives);
-        derivatives.d_f.get(i)
+        derivatives.d_f.clone()
     };
-    let inertia = |_, i| (momentum(SMALL, i) - momentum(0.0, i)).abs();
+    let still = momenta(0.0, 0);
+    let inertia = |_, i| (momenta(SMALL, i).get(i) - still.get(i)).abs();
     Weights::new(&Kinds::of(g), inertia)
 }
 

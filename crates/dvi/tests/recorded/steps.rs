@@ -2,7 +2,7 @@
 
 use dvi::{
     Composition, Context, Derivatives, DiscreteLagrangian, DualSystem, FirstVariation, Gauss, Integrator,
-    Lagrangian, Means, Quadrature, State, System, Variation, Variational,
+    Lagrangian, Means, Quadrature, State, System, TracedSystem, Variation, Variational,
 };
 use lie::{Over, RealGroup, Scalar, VectorSpace};
 
@@ -123,4 +123,42 @@ fn of_a_composition() {
         two.step(&mut b, 1e-4).unwrap();
     }
     assert!(apart(&a, &b) < TOLERANCE);
+}
+
+/// With enough unknowns Newton's matrix is sparse; that of dual numbers is dense.
+#[test]
+fn of_longer_beams_and_rings_with_a_sparse_matrix() {
+    for ring in [false, true] {
+        let beam = Beam { ring, ..BEAM };
+        let start = bent(9, ring);
+        let columns: Vec<_> = Variation::basis(&start.g).into_iter().step_by(17).collect();
+        let h = 1e-4;
+        let mut one = Variational::new(beam.clone().discretise(Quadrature::Midpoint));
+        let mut two = Variational::new(ByJets(beam.discretise(Quadrature::Midpoint)));
+        let far = far(
+            &mut |state, columns| one.step_varied(state, columns, h).unwrap().means,
+            &mut |state, columns| two.step_varied(state, columns, h).unwrap().means,
+            &start,
+            columns,
+        );
+        assert!(far < TOLERANCE, "{far:e}");
+    }
+}
+
+/// By counting: instructions of the program grow as the beam does, and a step takes as many runs of it.
+#[test]
+fn a_beam_costs_as_much_a_node_however_long_it_is() {
+    let costs = |nodes: usize, ring: bool| {
+        let (mut state, beam) = (bent(nodes, ring), Beam { ring, ..BEAM });
+        let system = TracedSystem::new(beam.clone(), &state.g).unwrap();
+        let mut integrator = Variational::new(beam.discretise(Quadrature::Midpoint));
+        let report = integrator.step(&mut state, 1e-4).unwrap();
+        (system.program().instructions(), report.evaluations)
+    };
+    for ring in [false, true] {
+        let [few, some, many] = [20, 40, 80].map(|nodes| costs(nodes, ring));
+        assert!(many.0 - some.0 <= 2 * (some.0 - few.0), "{few:?} {some:?} {many:?}");
+        // Each renewal of the matrix takes the same few colours.
+        assert!(many.1 <= 2 * few.1, "{few:?} {some:?} {many:?}");
+    }
 }

@@ -16,6 +16,7 @@ use trace::{Program, record};
 
 pub(crate) use self::cache::{Cache, Whose};
 pub(crate) use self::compile::Programs;
+pub(crate) use self::elements::{count as count_numbers, with_numbers};
 pub(crate) use self::discrete::{DiscreteCache, DiscreteRecording};
 use self::compile::{Layout, compile};
 pub use self::error::TracedError;
