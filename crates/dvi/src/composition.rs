@@ -1,11 +1,10 @@
 //! Symmetric composition: higher order from a discrete Lagrangian and its adjoint.
 
-use lie::{LieGroup, VectorSpace};
-
 use crate::{
     Adjoint, DiscreteLagrangian, FirstVariation, Integrator, Path, State, StepError, StepReport,
     Variation, Variational,
 };
+use lie::{LieGroup, VectorSpace};
 
 /// Suzuki's five equal-sized steps, $\gamma = 1/(4 - 4^{1/3})$ (M. Suzuki, Phys. Lett. A 146, 1990).
 const FOURTH: [f64; 5] = [
@@ -187,6 +186,7 @@ impl<L: DiscreteLagrangian> Composition<L> {
             total.iterations += report.iterations;
             total.evaluations += report.evaluations;
             total.residual = total.residual.max(report.residual);
+            total.means = report.means;
         };
         let solved = self.parts.iter_mut().try_for_each(|part| {
             let (method, length) = (Half::Method(&mut part.method), part.length * h);

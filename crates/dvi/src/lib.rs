@@ -69,10 +69,11 @@ pub use pilot::{Pilot, PilotError};
 pub use step::{Cause, Hint, Integrator, Path, StepError, StepReport, check_momentum, check_step};
 pub use system::{
     Adjoint, AdjointWorkspace, Context, ContinuousSystem, Derivatives, DiscreteForce,
-    DiscreteLagrangian, Discretised, DiscretisedWorkspace, Force, Forced, ForcedWorkspace,
-    HamiltonianSystem, Lagrangian, LeftTranslation, LegendreWorkspace, Pair, Quadrature,
-    RightTranslation, ShapeError, State, Still, Symmetry, System, TracedError, TracedSystem,
-    TracedWorkspace, legendre_minus, legendre_plus, momentum_map,
+    DiscreteLagrangian, Discretised, DiscretisedWorkspace, DualSystem, Force, Forced,
+    ForcedWorkspace, HamiltonianSystem, HamiltonianWorkspace, Lagrangian, LeftTranslation,
+    LegendreWorkspace, Means, Pair, Quadrature, RightTranslation, ShapeError, State, Still,
+    Symmetry, System, TracedError, TracedSystem, TracedWorkspace, legendre_minus, legendre_plus,
+    momentum_map,
 };
 pub use variation::{FirstVariation, Variation, symplectic_form};
 pub use variational::Variational;

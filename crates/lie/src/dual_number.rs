@@ -139,6 +139,12 @@ impl<T: Scalar> Scalar for DualNumber<T> {
     type Jet = DualNumber<Self>;
     const EPSILON: f64 = T::EPSILON;
     const DUAL_LEVELS: u32 = T::DUAL_LEVELS + 1;
+    const IS_SINGLE: bool = T::IS_SINGLE;
+
+    #[inline(always)]
+    fn compiled<O>(f: impl FnOnce() -> O) -> O {
+        T::compiled(f)
+    }
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

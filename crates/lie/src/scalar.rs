@@ -54,6 +54,9 @@ pub trait Scalar:
     /// How many levels of dual numbers this scalar nests: 0 for floats, one more than the inner scalar's for duals.
     const DUAL_LEVELS: u32;
 
+    /// Whether it stands for one number; [lanes](crate::lanes) stand for several.
+    const IS_SINGLE: bool = true;
+
     /// The nearest number to `x`, a constant under differentiation.
     fn from_f64(x: f64) -> Self;
 
@@ -136,6 +139,24 @@ pub trait Scalar:
 
     /// `yes` where the mask holds, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// This number where `by` is larger than `least` in magnitude, or is no number; none elsewhere.
+    ///
+    /// It guards a domain, such as that of a chart. A recording, which has no value to look at, always gives a number: one that will be
+    /// no number outside the domain.
+    #[inline(always)]
+    fn guarded(self, by: Self, least: f64) -> Option<Self> {
+        let outside = by.magnitude() <= least;
+        (!outside).then_some(self)
+    }
+
+    /// Runs `f` compiled for the instructions of this scalar, as far as `f` and all it calls is inlined; see [`Batch::run`](crate::Batch::run).
+    ///
+    /// So a function over any scalar need not be inlined itself.
+    #[inline(always)]
+    fn compiled<O>(f: impl FnOnce() -> O) -> O {
+        f()
+    }
 
     /// The largest absolute value of the real parts; for pivots, tolerances and tests, not for formulas.
     fn magnitude(self) -> f64;

@@ -115,12 +115,11 @@ impl<S: Scalar> SO2<S> {
         self.cos.less(S::zero())
     }
 
-    /// Whether the angle is $\pi$ within its rounding.
+    /// A number that is not of half turns: none where the angle is $\pi$ within its rounding.
     #[inline(always)]
-    fn is_half_turn(&self) -> bool {
-        // By the difference with one: the magnitude of a scalar has no sign.
-        let obtuse = (self.cos - S::one()).magnitude() > 1.0;
-        obtuse && self.sin.magnitude() <= 4.0 * S::EPSILON
+    fn unless_half_turn(&self, x: S) -> Option<S> {
+        let by = S::select(self.is_obtuse(), self.sin, S::one());
+        x.guarded(by, 4.0 * S::EPSILON)
     }
 
     /// $1 + \xi^2/4$, the Cayley map's divisor.
@@ -187,11 +186,13 @@ impl<S: Scalar> LieGroup for SO2<S> {
 
     #[inline(always)]
     fn log(&self) -> Result<Tangent<1, S>, NotUnique<Tangent<1, S>>> {
-        let xi = Tangent([self.angle()]);
-        if self.is_half_turn() {
-            return Err(NotUnique { representative: xi });
+        let angle = self.angle();
+        match self.unless_half_turn(angle) {
+            Some(angle) => Ok(Tangent([angle])),
+            None => Err(NotUnique {
+                representative: Tangent([angle]),
+            }),
         }
-        Ok(xi)
     }
 
     #[inline(always)]
@@ -234,13 +235,11 @@ impl<S: Scalar> LieGroup for SO2<S> {
     /// $2 \tan\frac\theta2$, as $2 \sin\theta / (1 + \cos\theta)$ or $2 (1 - \cos\theta) / \sin\theta$, which do not cancel.
     #[inline(always)]
     fn cayley_inverse(&self) -> Result<Tangent<1, S>, OutsideChart> {
-        if self.is_half_turn() {
-            return Err(OutsideChart);
-        }
         let (one, obtuse) = (S::one(), self.is_obtuse());
         let numerator = S::select(obtuse, one - self.cos, self.sin);
         let denominator = S::select(obtuse, self.sin, one + self.cos);
-        Ok(Tangent([(numerator + numerator) / denominator]))
+        let tangent = self.unless_half_turn((numerator + numerator) / denominator);
+        Ok(Tangent([tangent.ok_or(OutsideChart)?]))
     }
 
     #[inline(always)]

@@ -298,10 +298,17 @@ impl<S: Scalar> LieGroup for SO3<S> {
         let scale = angle_over_sine(v.norm_squared(), S::select(negative, -w, w));
         let xi = Tangent::from(v * S::select(negative, -scale, scale));
         // The quaternion's rounding leaves a half turn this far from w = 0.
-        if w.magnitude() <= 2.0 * S::EPSILON {
-            return Err(NotUnique { representative: xi });
+        let mut unique = true;
+        let guarded = xi.0.map(|x| {
+            let inside = x.guarded(w, 2.0 * S::EPSILON);
+            unique &= inside.is_some();
+            inside.unwrap_or(x)
+        });
+        let xi = Tangent(guarded);
+        match unique {
+            true => Ok(xi),
+            false => Err(NotUnique { representative: xi }),
         }
-        Ok(xi)
     }
 
     #[inline(always)]
@@ -353,9 +360,9 @@ impl<S: Scalar> LieGroup for SO3<S> {
     fn cayley_inverse(&self) -> Result<Tangent<3, S>, OutsideChart> {
         let denominator = S::one() + self.matrix.trace();
         // 1 + tr R = 4 cos^2(theta/2), whose rounding error is a few epsilon.
-        if denominator.magnitude() <= 8.0 * S::EPSILON {
-            return Err(OutsideChart);
-        }
+        let denominator = denominator
+            .guarded(denominator, 8.0 * S::EPSILON)
+            .ok_or(OutsideChart)?;
         Ok((self.matrix.skew_vee() * (S::from_f64(2.0) / denominator)).into())
     }
 

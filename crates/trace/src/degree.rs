@@ -57,14 +57,22 @@ impl Graph {
     /// # Panics
     /// Where a node is not of this graph.
     pub fn degree(&self, out: Id, wrt: &[Id]) -> Degree {
+        self.degrees(&[out], wrt)[0]
+    }
+
+    /// The [degree](Self::degree) of each of `out`, found in one pass.
+    ///
+    /// # Panics
+    /// Where a node is not of this graph.
+    pub fn degrees(&self, out: &[Id], wrt: &[Id]) -> Vec<Degree> {
         let mut known: HashMap<Id, Degree> = wrt.iter().map(|x| (*x, Degree::Linear)).collect();
-        for id in reachable([out], |id| self.dependencies(id)) {
+        for id in reachable(out.iter().copied(), |id| self.dependencies(id)) {
             if !known.contains_key(&id) {
                 let degree = self.degree_of(id, &known);
                 known.insert(id, degree);
             }
         }
-        known[&out]
+        out.iter().map(|id| known[id]).collect()
     }
 
     fn degree_of(&self, id: Id, known: &HashMap<Id, Degree>) -> Degree {

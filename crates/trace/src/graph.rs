@@ -88,6 +88,11 @@ impl Graph {
         self.nodes[id.index()]
     }
 
+    /// How all its numbers are made, in order.
+    pub fn nodes(&self) -> impl Iterator<Item = Node> {
+        self.nodes.iter().copied()
+    }
+
     /// How many nodes there are.
     pub fn len(&self) -> usize {
         self.nodes.len()

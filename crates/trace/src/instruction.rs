@@ -3,7 +3,7 @@
 use crate::node::{Binary, Unary};
 
 /// What an instruction does; those in inner loops by themselves, the costly ones by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Op {
     Add,
     Sub,
@@ -47,6 +47,15 @@ impl Instruction {
     /// A second place that it writes.
     pub(crate) fn second(&mut self) -> Option<&mut u32> {
         (self.op == Op::SinCos).then_some(&mut self.args[1])
+    }
+
+    /// All its places, one after the other: where the result goes, what it reads, and what else it names.
+    pub(crate) fn places(&self) -> impl Iterator<Item = u32> {
+        let named = match self.op {
+            Op::Times | Op::SinCos => 2,
+            _ => self.arity(),
+        };
+        core::iter::once(self.to).chain(self.args.into_iter().take(named))
     }
 
     fn arity(&self) -> usize {

@@ -51,6 +51,7 @@ mod node;
 mod pattern;
 mod program;
 mod recording;
+mod schedule;
 mod slots;
 mod traced;
 mod walk;

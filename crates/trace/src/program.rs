@@ -4,17 +4,16 @@ use lie::Scalar;
 
 use crate::error::WrongLength;
 use crate::graph::Graph;
-use crate::instruction::{Instruction, Op};
+use crate::instruction::Op;
 use crate::lower::{Lowered, lower};
 use crate::node::{Id, Node};
+use crate::schedule::schedule;
 use crate::slots::Slots;
 
 /// Some numbers of a graph, ready to be computed over any [`Scalar`].
 ///
 /// It has the instructions that they need, each once, in a memory of as many slots as numbers are alive at a time. Over doubles it gives
 /// what the formula gives, to the bit; products with a constant go through [`Scalar::times`].
-///
-/// Over [lanes](lie::lanes), call [`run`](Self::run) inside [`Batch::run`](lie::Batch::run): it is inlined there.
 ///
 /// ```
 /// use lie::{Jet, Scalar};
@@ -31,7 +30,11 @@ use crate::slots::Slots;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    instructions: Vec<Instruction>,
+    /// Runs of one operation: how many instructions each has.
+    runs: Vec<(Op, usize)>,
+    /// The places that instructions name, one after the other; as many for each as its operation says.
+    places: Vec<u32>,
+    instructions: usize,
     factors: Vec<f64>,
     /// Slots that hold constants at first.
     constants: Vec<(u32, f64)>,
@@ -49,10 +52,11 @@ impl Program {
     /// Where one is not of this graph.
     pub fn new(graph: &Graph, outputs: &[Id]) -> Self {
         let Lowered {
-            mut instructions,
+            instructions,
             factors,
             leaves,
         } = lower(graph, outputs);
+        let instructions = schedule(&instructions);
         let kept = outputs.iter().map(|id| id.0);
         let mut slots = Slots::new(&instructions, kept);
         let (mut constants, mut loads) = (Vec::new(), Vec::new());
@@ -66,11 +70,19 @@ impl Program {
                 }
             }
         }
-        for instruction in &mut instructions {
-            *instruction = slots.assign(*instruction);
+        let (mut runs, mut places) = (Vec::<(Op, usize)>::new(), Vec::new());
+        for instruction in &instructions {
+            let placed = slots.assign(*instruction);
+            match runs.last_mut() {
+                Some((op, count)) if *op == placed.op => *count += 1,
+                _ => runs.push((placed.op, 1)),
+            }
+            places.extend(placed.places());
         }
         Self {
-            instructions,
+            runs,
+            places,
+            instructions: instructions.len(),
             factors,
             constants,
             loads,
@@ -92,7 +104,7 @@ impl Program {
 
     /// How many instructions it has.
     pub fn instructions(&self) -> usize {
-        self.instructions.len()
+        self.instructions
     }
 
     /// How many numbers its memory holds.
@@ -112,7 +124,7 @@ impl Program {
     /// # Errors
     /// [`WrongLength`] where a slice is not as long as [`slots`](Self::slots), [`inputs`](Self::inputs) and [`outputs`](Self::outputs) tell;
     /// then nothing is computed.
-    #[inline(always)]
+    #[inline(never)]
     pub fn run<S: Scalar>(
         &self,
         memory: &mut [S],
@@ -122,45 +134,80 @@ impl Program {
         expect("slots of memory", self.slots, memory.len())?;
         expect("inputs", self.inputs, inputs.len())?;
         expect("outputs", self.outputs.len(), outputs.len())?;
+        S::compiled(
+            #[inline(always)]
+            || {
+                self.load(memory, inputs);
+                self.compute(memory);
+                for (out, slot) in outputs.iter_mut().zip(&self.outputs) {
+                    *out = memory[*slot as usize];
+                }
+            },
+        );
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn load<S: Scalar>(&self, memory: &mut [S], inputs: &[S]) {
         for (slot, c) in &self.constants {
             memory[*slot as usize] = S::from_f64(*c);
         }
         for (slot, k) in &self.loads {
             memory[*slot as usize] = inputs[*k as usize];
         }
-        for instruction in &self.instructions {
-            self.step(instruction, memory);
-        }
-        for (out, slot) in outputs.iter_mut().zip(&self.outputs) {
-            *out = memory[*slot as usize];
-        }
-        Ok(())
     }
 
     #[inline(always)]
-    fn step<S: Scalar>(&self, instruction: &Instruction, memory: &mut [S]) {
-        let Instruction { op, to, args } = instruction;
-        let at = |k: usize| memory[args[k] as usize];
-        let value = match op {
-            Op::Add => at(0) + at(1),
-            Op::Sub => at(0) - at(1),
-            Op::Mul => at(0) * at(1),
-            Op::Div => at(0) / at(1),
-            Op::Neg => -at(0),
-            Op::MulAdd => at(0).mul_add(at(1), at(2)),
-            Op::NegMulAdd => at(0).neg_mul_add(at(1), at(2)),
-            Op::Select => S::select(at(0).less(at(1)), at(2), at(3)),
-            Op::Times => at(0).times(self.factors[args[1] as usize]),
-            Op::SinCos => {
-                let (sin, cos) = at(0).sin_cos();
-                memory[args[1] as usize] = cos;
-                sin
-            }
-            Op::Unary(op) => op.apply(at(0)),
-            Op::Binary(op) => op.apply(at(0), at(1)),
-        };
-        memory[*to as usize] = value;
+    fn compute<S: Scalar>(&self, memory: &mut [S]) {
+        let mut rest = &self.places[..];
+        for (op, count) in &self.runs {
+            let done = match op {
+                Op::Add => each(rest, *count, memory, |[x, y]| x + y),
+                Op::Sub => each(rest, *count, memory, |[x, y]| x - y),
+                Op::Mul => each(rest, *count, memory, |[x, y]| x * y),
+                Op::Div => each(rest, *count, memory, |[x, y]| x / y),
+                Op::Neg => each(rest, *count, memory, |[x]| -x),
+                Op::MulAdd => each(rest, *count, memory, |[x, a, b]| x.mul_add(a, b)),
+                Op::NegMulAdd => each(rest, *count, memory, |[x, a, b]| x.neg_mul_add(a, b)),
+                Op::Select => each(rest, *count, memory, |[l, r, yes, no]| {
+                    S::select(l.less(r), yes, no)
+                }),
+                Op::Times => {
+                    for [to, x, factor] in rest.as_chunks().0.iter().take(*count) {
+                        memory[*to as usize] =
+                            memory[*x as usize].times(self.factors[*factor as usize]);
+                    }
+                    3 * count
+                }
+                Op::SinCos => {
+                    for [to, x, cosine] in rest.as_chunks().0.iter().take(*count) {
+                        let (sin, cos) = memory[*x as usize].sin_cos();
+                        memory[*to as usize] = sin;
+                        memory[*cosine as usize] = cos;
+                    }
+                    3 * count
+                }
+                Op::Unary(op) => each(rest, *count, memory, |[x]| op.apply(x)),
+                Op::Binary(op) => each(rest, *count, memory, |[x, y]| op.apply(x, y)),
+            };
+            rest = &rest[done..];
+        }
     }
+}
+
+/// Runs one operation `count` times; how many places it has named.
+#[inline(always)]
+fn each<S: Scalar, const N: usize>(
+    places: &[u32],
+    count: usize,
+    memory: &mut [S],
+    op: impl Fn([S; N]) -> S,
+) -> usize {
+    for named in places.chunks_exact(1 + N).take(count) {
+        let args = core::array::from_fn(|k| memory[named[1 + k] as usize]);
+        memory[named[0] as usize] = op(args);
+    }
+    (1 + N) * count
 }
 
 #[inline(always)]

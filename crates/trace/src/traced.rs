@@ -98,6 +98,11 @@ impl Traced {
         }
     }
 
+    fn guarded_by_constant(self, by: f64, least: f64) -> Option<Self> {
+        let outside = by.abs() <= least;
+        (!outside).then_some(self)
+    }
+
     /// The value of a constant; the recording of any other number is refused.
     fn value(self, operation: &'static str, at: &'static Location<'static>) -> Option<f64> {
         match self.0 {
@@ -267,6 +272,16 @@ impl Scalar for Traced {
                 |graph, [l, r, y, n]| graph.select([l, r], y, n),
             ),
         }
+    }
+    /// A domain is recorded: outside it there is no number.
+    #[track_caller]
+    fn guarded(self, by: Self, least: f64) -> Option<Self> {
+        if let Number::Constant(by) = by.0 {
+            return self.guarded_by_constant(by, least);
+        }
+        let outside = Self::constant(f64::NAN);
+        let inside = Self::constant(least * least).less(by * by);
+        Some(Self::select(inside, self, outside))
     }
     /// Refuses the recording, but of a constant; not a number then.
     #[track_caller]

@@ -16,7 +16,7 @@ use lie::{Cayley, Retraction, VectorSpace};
 
 use crate::step::{check_momentum, check_step, finite};
 use crate::{
-    Cause, ContinuousSystem, FirstVariation, Integrator, Path, State, StepError, StepReport,
+    Cause, ContinuousSystem, FirstVariation, Integrator, Means, Path, State, StepError, StepReport,
     Variation,
 };
 use stepper::{MakeStepper, Stepper, stepper};
@@ -80,6 +80,8 @@ pub struct Gauss<C: ContinuousSystem> {
     /// Makes the work for the retraction that was chosen.
     make: MakeStepper<C>,
     work: Option<Box<dyn Stepper<C>>>,
+    /// Those of the steps that the work is for.
+    means: Means,
 }
 
 impl<C: ContinuousSystem + 'static> Gauss<C> {
@@ -109,6 +111,7 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
             steps: 0,
             make: stepper::<C, Cayley>,
             work: None,
+            means: Means::default(),
         }
     }
 
@@ -165,12 +168,21 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
             Some(work) if work.fits(&state.g) => work,
             _ => match degenerate() {
                 Some(coordinate) => return Err(Cause::Degenerate { coordinate }),
-                None => (self.make)(self.instructions, tableau, &state.g),
+                None => {
+                    self.means = system.means(state.t, &state.g);
+                    let instructions = match self.means {
+                        Means::DualNumbers { .. } => InstructionSet::Baseline,
+                        _ => self.instructions,
+                    };
+                    (self.make)(instructions, tableau, &state.g)
+                }
             },
         };
         let work = self.work.insert(work);
         check_momentum(&state.mu, work.shape())?;
         let solved = work.solve((system, tableau), (state, h), self.limits);
+        let means = self.means;
+        let solved = solved.map(|report| StepReport { means, ..report });
         solved.map_err(|cause| match degenerate() {
             Some(coordinate) if cause == Cause::NotFinite => Cause::Degenerate { coordinate },
             _ => cause,

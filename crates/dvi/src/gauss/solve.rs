@@ -219,7 +219,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             report = StepReport {
                 iterations,
                 residual: changes.now,
-                evaluations: 0,
+                ..StepReport::default()
             };
             let solved = changes.are_solved(tolerance);
             if solved || iterations % LOOKS_AT_END == 0 {
@@ -335,7 +335,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             report = StepReport {
                 iterations,
                 residual: best,
-                evaluations: 0,
+                ..StepReport::default()
             };
             if is_solved(change, last, tolerance) {
                 // Where the matrix of the steps before has done, the step is as theirs.

@@ -7,7 +7,7 @@ use super::compare::{ROUNDING, extent, on_each};
 use super::cyclic;
 use super::displacements::{Displacements, displacements};
 use super::verdict::{LawError, Outcome};
-use crate::{Context, Derivatives, DiscreteLagrangian, HamiltonianSystem, Lagrangian, State};
+use crate::{Context, Derivatives, DiscreteLagrangian, Lagrangian, State};
 
 /// Half-width of a central difference of order 4, relative to the displacement: $\varepsilon^{1/5}$ balances rounding against truncation.
 const WIDTH: f64 = 7e-4;
@@ -123,7 +123,7 @@ where
 {
     on_each(states, |c, state| {
         let State { t, g, .. } = state;
-        let xi = HamiltonianSystem(continuous).velocity(state);
+        let xi = continuous.hamiltonian().velocity(state);
         let expected = continuous.value(Context::new(*t, continuous.parameters()), g, &xi);
         let at = Context::new(*t, discrete.parameters());
         let mean = |h: f64| {

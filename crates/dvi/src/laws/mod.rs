@@ -89,7 +89,7 @@ pub fn check<L: DiscreteLagrangian>(
     for state in states {
         cyclic::exist(lagrangian, &state.g)?;
         derivatives::check(&mut report, lagrangian, state, h)?;
-        if degenerate(lagrangian, state, h).is_some() {
+        if degenerate(lagrangian, state, h, &Default::default()).is_some() {
             let case = format!("{state:?}");
             return Err(LawError::Degenerate { case });
         }

@@ -5,3 +5,4 @@ pub(crate) mod duals;
 pub(crate) mod large;
 pub(crate) mod numbers;
 pub(crate) mod sizes;
+pub(crate) mod sparse;

@@ -6,7 +6,7 @@ mod path;
 
 use lie::RealGroup;
 
-use crate::State;
+use crate::{Means, State};
 pub(crate) use check::{check_call, check_shape, finite};
 pub use check::{check_momentum, check_step};
 pub use error::{Cause, Hint, StepError};
@@ -102,6 +102,8 @@ pub struct StepReport {
     pub evaluations: u32,
     /// The equation's residual relative to the momentum, in the unit of coordinates where that is largest.
     pub residual: f64,
+    /// How the derivatives came about: by the system's own formulas, by a recording of its value, or by dual numbers.
+    pub means: Means,
 }
 
 macro_rules! forward {

@@ -3,6 +3,34 @@
 use lie::{AlgebraOver, DualOver, Over, Scalar};
 
 use super::context::{Context, System};
+use super::traced::TracedError;
+
+/// How the derivatives of a system come about.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum Means {
+    /// By the system's own formulas.
+    #[default]
+    Formulas,
+    /// By a program: the system's value was recorded once.
+    Recorded,
+    /// By dual numbers.
+    DualNumbers {
+        /// Why the value is not recorded, where that was tried.
+        why: Option<TracedError>,
+    },
+}
+
+impl core::fmt::Display for Means {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Formulas => write!(f, "derivatives by the system's own formulas"),
+            Self::Recorded => write!(f, "derivatives of a recorded value"),
+            Self::DualNumbers { why: None } => write!(f, "derivatives by dual numbers"),
+            Self::DualNumbers { why: Some(why) } => write!(f, "derivatives by dual numbers: {why}"),
+        }
+    }
+}
 
 /// Hamilton's equations on a left-trivialised cotangent bundle, (8)–(9):
 /// $\dot g = g \xi$, $\dot\mu = \mathrm{ad}^\ast_\xi \mu + \tau$.
@@ -42,6 +70,13 @@ pub trait ContinuousSystem: System {
     fn without_inertia(&self, _t: f64, _g: &Self::Group) -> Option<usize> {
         None
     }
+
+    /// How velocity and force come about, for steps from `g` at the time `t`.
+    ///
+    /// Integrators ask for it before their first step, and run in lanes unless it is by dual numbers.
+    fn means(&self, _t: f64, _g: &Self::Group) -> Means {
+        Means::Formulas
+    }
 }
 
 impl<C: ContinuousSystem> ContinuousSystem for &C {
@@ -65,5 +100,8 @@ impl<C: ContinuousSystem> ContinuousSystem for &C {
     }
     fn without_inertia(&self, t: f64, g: &C::Group) -> Option<usize> {
         C::without_inertia(self, t, g)
+    }
+    fn means(&self, t: f64, g: &C::Group) -> Means {
+        C::means(self, t, g)
     }
 }

@@ -6,14 +6,16 @@ use core::ops::Range;
 use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 use super::context::{Context, System};
+use super::continuous::Means;
 use super::lifted::{Arguments, Lifted};
 use super::state::{State, Still};
+use super::traced::{DiscreteCache, DiscreteRecording};
 use crate::numerics::duals::{for_each_chunk, read_partials};
 
 /// A discrete Lagrangian $L_d(g_k, f_k)$ with $f_k = g_k^{-1} g_{k+1}$: the action of one step of size $h$.
 ///
-/// Only [`value`](Self::value) is required; write it generic over the scalar and the framework differentiates
-/// it by dual numbers. Where speed counts, give [`derivatives`](Self::derivatives) in closed form, and the model's own solve of its
+/// Only [`value`](Self::value) is required; write it generic over the scalar and integrators record it once and
+/// differentiate what was recorded, or take dual numbers where it branches on a value. Where speed counts, give [`derivatives`](Self::derivatives) in closed form, and the model's own solve of its
 /// inertia: [`factorise`](Self::factorise) and what follows it.
 ///
 /// ```
@@ -61,7 +63,7 @@ pub trait DiscreteLagrangian: System {
         h: S,
     ) -> S;
 
-    /// Both left-trivialised derivatives, into `out`; by dual numbers unless given.
+    /// Both left-trivialised derivatives, into `out`; those of the value unless given.
     ///
     /// They share most of their terms, hence one method. A closed form writes every coordinate of both.
     fn derivatives<S: Scalar>(
@@ -73,7 +75,7 @@ pub trait DiscreteLagrangian: System {
         _work: &mut Self::Workspace<S>,
         out: &mut Derivatives<Self::Group, S>,
     ) {
-        out.by_jets(self, at, g, f, h);
+        out.by_value(self, at, g, f, h);
     }
 
     /// Whether `g` is in the domain of $L_d$; by default, whether there is an action of staying there.
@@ -233,6 +235,9 @@ pub struct Derivatives<G: RealGroup, S: Scalar> {
     /// $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$: the derivative along $g \exp(\eta)$ at $\eta = 0$.
     pub d_g: DualOver<G, S>,
     lifted: Option<Lifted<G, S>>,
+    recording: Option<DiscreteRecording<G, S>>,
+    /// How they came about last.
+    pub(crate) means: Means,
 }
 
 impl<G: RealGroup, S: Scalar> Debug for Derivatives<G, S> {
@@ -251,7 +256,50 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
             d_f: g.zero_dual(),
             d_g: g.zero_dual(),
             lifted: None,
+            recording: None,
+            means: Means::Formulas,
         }
+    }
+
+    /// The same, with what is recorded of discrete Lagrangians in an integrator.
+    pub(crate) fn with_cache(g: &Over<G, S>, cache: DiscreteCache<G>) -> Self {
+        Self {
+            recording: Some(DiscreteRecording::new(cache)),
+            ..Self::new(g)
+        }
+    }
+
+    /// Fills both from the value alone: in an integrator by a program, where the value can be recorded, and by dual numbers elsewhere.
+    pub fn by_value<L: DiscreteLagrangian<Group = G> + ?Sized>(
+        &mut self,
+        lagrangian: &L,
+        at: Context<S>,
+        g: &Over<G, S>,
+        f: &Over<G, S>,
+        h: S,
+    ) {
+        if !self.by_recording(lagrangian, (at, (g, f), h)) {
+            self.by_jets(lagrangian, at, g, f, h);
+        }
+    }
+
+    /// Fills both by the program of a recorded value; false where there is none.
+    pub(crate) fn by_recording<L: DiscreteLagrangian<Group = G> + ?Sized>(
+        &mut self,
+        lagrangian: &L,
+        arguments: Arguments<'_, G, S>,
+    ) -> bool {
+        let Some(recording) = &mut self.recording else {
+            return false;
+        };
+        let Some(out) = recording.run(lagrangian, arguments) else {
+            return false;
+        };
+        let (d_f, d_g) = out.split_at(out.len() / 2);
+        self.d_f.read(d_f);
+        self.d_g.read(d_g);
+        self.means = Means::Recorded;
+        true
     }
 
     /// Fills both from the value alone, by dual numbers seeded at the identity of $f \exp\zeta$ and $g \exp\eta$.
@@ -275,7 +323,12 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         arguments: Arguments<'_, G, S>,
         mut value: impl FnMut(Arguments<'_, G, S::Jet>) -> S::Jet,
     ) {
-        let Self { d_f, d_g, lifted } = self;
+        let recording = self.recording.as_ref();
+        let why = recording.and_then(DiscreteRecording::refusal);
+        self.means = Means::DualNumbers { why };
+        let Self {
+            d_f, d_g, lifted, ..
+        } = self;
         let (_, (g, _), _) = arguments;
         let lifted = lifted.get_or_insert_with(|| Lifted::new(g));
         lifted.set(arguments);

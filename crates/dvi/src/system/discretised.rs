@@ -132,6 +132,9 @@ impl<L: Lagrangian, R: Retraction> DiscreteLagrangian for Discretised<L, R> {
         work: &mut Self::Workspace<S>,
         out: &mut Derivatives<L::Group, S>,
     ) {
+        if out.by_recording(self, (at, (g, f), h)) {
+            return;
+        }
         out.by_jets_of((at, (g, f), h), |arguments| {
             let (_, (g, _), _) = arguments;
             self.value_between(arguments, work.for_shape_of(g))

@@ -3,7 +3,7 @@
 use lie::{AlgebraOver, DualOver, LieGroup, Over, Scalar, VectorSpace};
 
 use super::context::{Adapter, Context, System};
-use super::continuous::ContinuousSystem;
+use super::continuous::{ContinuousSystem, Means};
 use super::discrete::{Derivatives, DiscreteLagrangian};
 use super::force::{DiscreteForce, Force};
 use super::lagrangian::Discretised;
@@ -176,5 +176,8 @@ where
     }
     fn without_inertia(&self, t: f64, g: &L::Group) -> Option<usize> {
         self.system.without_inertia(t, g)
+    }
+    fn means(&self, t: f64, g: &L::Group) -> Means {
+        self.system.means(t, g)
     }
 }

@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 use lie::{AlgebraOver, Cayley, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 use super::context::{Context, System};
+use super::hamiltonian::HamiltonianSystem;
 use super::quadrature::Quadrature;
 use super::shape::ShapeError;
 use super::state::{State, Still};
@@ -134,12 +135,12 @@ pub trait Lagrangian: System {
         Discretised::new(self, rule)
     }
 
-    /// Hamilton's equations of this Lagrangian.
+    /// Hamilton's equations of this Lagrangian: of a recording of its value, where there is one.
     fn hamiltonian(self) -> HamiltonianSystem<Self>
     where
         Self: Sized,
     {
-        HamiltonianSystem(self)
+        HamiltonianSystem::new(self)
     }
 }
 
@@ -252,34 +253,3 @@ impl<L, R> Discretised<L, R> {
         &self.system
     }
 }
-
-/// The Hamiltonian system of a Lagrangian, $\mu = \mathbf D_\xi L$, by dual numbers.
-///
-/// The velocity comes from Newton's method on the Legendre transform, with the Hessian $\mathbf D_\xi^2 L$: exact after one
-/// iteration where the kinetic energy is quadratic. Where the Hessian is singular, at the velocity or at zero, where the iteration
-/// starts, or where there is no such velocity, the answer is not a number.
-///
-/// ```
-/// use dvi::{Context, Lagrangian, State, System};
-/// use lie::{Cotangent, Rn, Scalar, Tangent};
-///
-/// /// A particle of 2 kg in a field of 9.81 N/kg.
-/// struct Falling;
-///
-/// impl System for Falling {
-///     type Group = Rn<1>;
-/// }
-///
-/// impl Lagrangian for Falling {
-///     fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
-///         v[0] * v[0] - x.0[0] * S::from_f64(2.0 * 9.81)
-///     }
-/// }
-///
-/// let state = State { t: 0.0, g: Rn([3.0]), mu: Cotangent([4.0]) };
-/// let system = Falling.hamiltonian();
-/// assert_eq!(system.velocity(&state), Tangent([2.0]));
-/// assert_eq!(system.energy(&state), 4.0 + 3.0 * 2.0 * 9.81);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HamiltonianSystem<L>(pub L);

@@ -3,6 +3,7 @@
 use lie::{AlgebraOver, Cayley, DualOver, LieGroup, Over, Scalar, VectorSpace};
 
 use crate::numerics::duals::lift;
+use crate::system::DiscreteCache;
 use crate::{Context, Derivatives, DiscreteLagrangian};
 
 /// The discrete Euler–Lagrange equations (25) at one step, in momentum form and in the frame of the step's end.
@@ -23,12 +24,12 @@ pub(crate) struct Balance<L: DiscreteLagrangian, S: Scalar> {
 }
 
 impl<L: DiscreteLagrangian, S: Scalar> Balance<L, S> {
-    pub(crate) fn new(g: &Over<L::Group, S>) -> Self {
+    pub(crate) fn new(g: &Over<L::Group, S>, cache: DiscreteCache<L::Group>) -> Self {
         Self {
             f: g.clone(),
             parameters: Vec::new(),
             workspace: Default::default(),
-            derivatives: Derivatives::new(g),
+            derivatives: Derivatives::with_cache(g, cache),
             transported: g.zero_dual(),
             residual: g.zero_dual(),
             momentum: g.zero_dual(),

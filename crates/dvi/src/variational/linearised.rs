@@ -5,7 +5,7 @@ use lie::{AlgebraOver, Jet, LieGroup, Scalar, VectorSpace};
 use super::balance::Balance;
 use super::newton::Newton;
 use crate::numerics::duals::add_constant;
-use crate::system::{Algebra, Dual};
+use crate::system::{Algebra, DiscreteCache, Dual};
 use crate::variation::Varied;
 use crate::{DiscreteLagrangian, State, Variation};
 
@@ -22,11 +22,11 @@ pub(super) struct Linearised<L: DiscreteLagrangian> {
 }
 
 impl<L: DiscreteLagrangian> Linearised<L> {
-    pub(super) fn new(lagrangian: &L, state: &L::Group) -> Self {
+    pub(super) fn new(state: &L::Group, cache: DiscreteCache<L::Group>) -> Self {
         let varied = Varied::new(state);
         Self {
-            newton: Newton::new(lagrangian, state),
-            balance: Balance::new(&varied.g),
+            newton: Newton::new(state, cache.clone()),
+            balance: Balance::new(&varied.g, cache),
             c: varied.g.zero_algebra(),
             delta: state.zero_algebra(),
             delta_residual: state.zero_dual(),

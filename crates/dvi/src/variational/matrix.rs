@@ -5,8 +5,7 @@ use core::ops::Range;
 use lie::VectorSpace;
 
 use super::newton::{DENSE_LIMIT, Newton, cyclic};
-use crate::numerics::duals::in_duals;
-use crate::system::{Algebra, Dual};
+use crate::system::{Algebra, DiscreteCache, Dual};
 use crate::{Context, Derivatives, DiscreteLagrangian, State};
 
 /// The matrix of a quasi-Newton iteration on the momentum balance, in the coordinates $c$ of $f = \tau(c)$.
@@ -21,6 +20,7 @@ pub(super) struct Matrix<L: DiscreteLagrangian> {
     /// With an inertia, made when first needed.
     exact: Option<Newton<L>>,
     takes_exact: bool,
+    cache: DiscreteCache<L::Group>,
     /// Of the derivatives, for the matrices of this step; see [`StepReport::evaluations`](crate::StepReport::evaluations).
     pub(super) evaluations: u32,
 }
@@ -29,11 +29,12 @@ impl<L: DiscreteLagrangian> Matrix<L> {
     /// A contraction slower than this asks for a [new matrix](Self::renew): an exact one costs as much as tens of iterations.
     pub(super) const SLOW: f64 = if L::HAS_INERTIA { 0.6 } else { 0.2 };
 
-    pub(super) fn new(lagrangian: &L, g: &L::Group, keeps_all: bool) -> Self {
+    pub(super) fn new(g: &L::Group, (cache, keeps_all): (DiscreteCache<L::Group>, bool)) -> Self {
         Self {
             h: 0.0,
             keeps_all,
-            exact: (!L::HAS_INERTIA).then(|| Newton::new(lagrangian, g)),
+            exact: (!L::HAS_INERTIA).then(|| Newton::new(g, cache.clone())),
+            cache,
             takes_exact: !L::HAS_INERTIA,
             evaluations: 0,
         }
@@ -117,11 +118,11 @@ impl<L: DiscreteLagrangian> Matrix<L> {
         if L::HAS_INERTIA && c.dim() > DENSE_LIMIT {
             return false;
         }
-        let new = || Newton::new(lagrangian, &state.g);
+        let new = || Newton::new(&state.g, self.cache.clone());
         let exact = self.exact.get_or_insert_with(new);
         exact.renew(lagrangian, state, h, c);
         self.takes_exact = true;
-        self.evaluations += in_duals(c.dim());
+        self.evaluations += exact.evaluations();
         true
     }
 

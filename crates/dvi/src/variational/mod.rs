@@ -5,11 +5,13 @@ mod linearised;
 mod matrix;
 mod newton;
 mod solve;
+mod sparsity;
 mod warm_start;
 
 use lie::{LieGroup, VectorSpace};
 
 use crate::step::{check_call, check_shape, check_step, finite};
+use crate::system::DiscreteCache;
 use crate::{
     Cause, DiscreteLagrangian, FirstVariation, Hint, Integrator, Pair, State, StepError,
     StepReport, Still, Variation, legendre_plus,
@@ -42,6 +44,8 @@ pub struct Variational<L: DiscreteLagrangian> {
     lagrangian: L,
     tolerance: Option<f64>,
     keeps_all: bool,
+    /// What is recorded of the discrete Lagrangian.
+    cache: DiscreteCache<L::Group>,
     steps: u64,
     work: Option<Work<L>>,
     linearised: Option<Linearised<L>>,
@@ -54,6 +58,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
             lagrangian,
             tolerance: None,
             keeps_all: false,
+            cache: DiscreteCache::default(),
             steps: 0,
             work: None,
             linearised: None,
@@ -91,7 +96,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
     /// As [`step`](Integrator::step).
     pub fn displacement(&mut self, state: &State<L::Group>, h: f64) -> Result<L::Group, StepError> {
         self.solve(state, h)?;
-        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), self.keeps_all);
+        let work = Self::work_of(
+            &self.lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         let f = work.balance.f.clone();
         let end = state.g.compose(&f);
         let ends = require_end(&self.lagrangian, state.t + h, &end, &work.still);
@@ -153,7 +163,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
     /// Takes the step that was solved.
     fn advance(&mut self, state: &mut State<L::Group>, h: f64) -> Result<(), StepError> {
         let normalizes = self.normalizes();
-        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), self.keeps_all);
+        let work = Self::work_of(
+            &self.lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         state.g.compose_into(&work.balance.f, &mut work.next);
         if normalizes {
             work.next.normalize();
@@ -188,7 +203,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
 
     /// The storage of a step that was solved.
     fn work(&mut self, state: &State<L::Group>, h: f64) -> &mut Work<L> {
-        Self::work_of(&self.lagrangian, &mut self.work, (state, h), self.keeps_all)
+        Self::work_of(
+            &self.lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        )
     }
 
     /// The storage for states of this shape, made when there is none.
@@ -196,9 +216,17 @@ impl<L: DiscreteLagrangian> Variational<L> {
         lagrangian: &L,
         work: &'a mut Option<Work<L>>,
         (state, h): (&State<L::Group>, f64),
-        keeps_all: bool,
+        (cache, keeps_all): (&DiscreteCache<L::Group>, bool),
     ) -> &'a mut Work<L> {
-        work.get_or_insert_with(|| Work::new(lagrangian, (state.t, h), &state.g, keeps_all))
+        let new = || {
+            Work::new(
+                lagrangian,
+                (state.t, h),
+                &state.g,
+                (cache.clone(), keeps_all),
+            )
+        };
+        work.get_or_insert_with(new)
     }
 
     fn error(&self, t: f64, h: f64, cause: Cause) -> StepError {
@@ -220,7 +248,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
             self.work = None;
         }
         let lagrangian = &self.lagrangian;
-        let work = Self::work_of(lagrangian, &mut self.work, (state, h), self.keeps_all);
+        let work = Self::work_of(
+            lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         check_shape(&state.mu, &work.balance.residual)?;
         let few = (state.mu.dim() as f64 / FEW).sqrt().max(1.0);
         let goal = Goal {
@@ -248,7 +281,7 @@ impl<L: DiscreteLagrangian> Variational<L> {
                 coordinate => coordinate,
             },
             End::NotFinite => None,
-            _ => degenerate(lagrangian, state, h),
+            _ => degenerate(lagrangian, state, h, &self.cache),
         };
         work.forget();
         if let Some(coordinate) = coordinate {
@@ -275,6 +308,7 @@ fn require_end<L: DiscreteLagrangian>(
 fn counted<L: DiscreteLagrangian>(report: StepReport, work: &Work<L>) -> StepReport {
     StepReport {
         evaluations: report.iterations + work.matrix.evaluations,
+        means: work.balance.derivatives.means,
         ..report
     }
 }
@@ -324,7 +358,12 @@ impl<L: DiscreteLagrangian> Integrator for Variational<L> {
 
     fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
         self.solve(state, h)?;
-        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), self.keeps_all);
+        let work = Self::work_of(
+            &self.lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         let balance = &work.balance;
         let ahead = State {
             t: state.t + h,
@@ -351,10 +390,15 @@ impl<L: DiscreteLagrangian> FirstVariation for Variational<L> {
         let report = self.solve(state, h)?;
         let mut carried = variations.to_vec();
         let fits = |known: &Linearised<L>| known.fits(&state.g);
-        let new = || Linearised::new(&self.lagrangian, &state.g);
+        let new = || Linearised::new(&state.g, self.cache.clone());
         let mut linearised = self.linearised.take().filter(fits).unwrap_or_else(new);
         let lagrangian = &self.lagrangian;
-        let work = Self::work_of(lagrangian, &mut self.work, (state, h), self.keeps_all);
+        let work = Self::work_of(
+            lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         linearised.carry(lagrangian, (state, h), &work.c, &mut carried);
         self.linearised = Some(linearised);
         if !carried.iter().all(Variation::is_finite) {

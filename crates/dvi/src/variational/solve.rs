@@ -10,7 +10,7 @@ use super::newton::cyclic;
 use super::warm_start::WarmStart;
 use crate::numerics::numbers::larger;
 use crate::numerics::sizes::{Kinds, Relative, Sizes, Weights, shake, shaken};
-use crate::system::{Algebra, Dual};
+use crate::system::{Algebra, DiscreteCache, Dual};
 use crate::{Context, Derivatives, DiscreteLagrangian, State, StepReport, Still};
 
 /// Evaluations of the balance before a step is given up.
@@ -148,16 +148,22 @@ struct Driven {
 }
 
 impl<L: DiscreteLagrangian> Work<L> {
-    pub(super) fn new(lagrangian: &L, (t, h): (f64, f64), g: &L::Group, keeps_all: bool) -> Self {
-        let (c, matrix) = (g.zero_algebra(), Matrix::new(lagrangian, g, keeps_all));
-        let weights = weights(lagrangian, (t, h), g);
+    pub(super) fn new(
+        lagrangian: &L,
+        (t, h): (f64, f64),
+        g: &L::Group,
+        (cache, keeps_all): (DiscreteCache<L::Group>, bool),
+    ) -> Self {
+        let c = g.zero_algebra();
+        let matrix = Matrix::new(g, (cache.clone(), keeps_all));
+        let weights = weights(lagrangian, (t, h), g, cache.clone());
         let driven = weights.clone().filter(|_| lagrangian.is_driven());
         Self {
             driven: driven.map(|weights| Driven {
                 weights,
                 kinds: Kinds::of(g),
             }),
-            balance: Balance::new(g),
+            balance: Balance::new(g, cache),
             sizes: Sizes::new(
                 g,
                 matrix.solved_exactly(lagrangian, c.dim()),
@@ -273,7 +279,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             report: StepReport {
                 iterations,
                 residual,
-                evaluations: 0,
+                ..StepReport::default()
             },
             at,
             turns: 0,
@@ -364,7 +370,7 @@ impl<L: DiscreteLagrangian> Work<L> {
             report: StepReport {
                 iterations,
                 residual,
-                evaluations: 0,
+                ..StepReport::default()
             },
             at: End::Solved,
             turns,
@@ -525,20 +531,25 @@ fn weights<L: DiscreteLagrangian>(
     lagrangian: &L,
     (t, h): (f64, f64),
     g: &L::Group,
+    cache: DiscreteCache<L::Group>,
 ) -> Option<Weights> {
     const SHORT: f64 = 1e-6;
     const SMALL: f64 = 1e-9;
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
-    let (mut derivatives, mut work) = (Derivatives::new(g), Default::default());
+    let mut derivatives = Derivatives::with_cache(g, cache);
+    let mut work = Default::default();
     let at = Context::new(t, lagrangian.parameters());
-    let mut momentum = |displacement: f64, i: usize| {
+    let mut momenta = |displacement: f64, i: usize| {
         c.set_zero();
-        c.set(i, displacement);
+        if displacement != 0.0 {
+            c.set(i, displacement);
+        }
         L::Group::retract_into::<Cayley>(&c, &mut f);
         lagrangian.derivatives(at, g, &f, SHORT * h, &mut work, &mut derivatives);
-        derivatives.d_f.get(i)
+        derivatives.d_f.clone()
     };
-    let inertia = |_, i| (momentum(SMALL, i) - momentum(0.0, i)).abs();
+    let still = momenta(0.0, 0);
+    let inertia = |_, i| (momenta(SMALL, i).get(i) - still.get(i)).abs();
     Weights::new(&Kinds::of(g), inertia)
 }
 

@@ -173,7 +173,12 @@ impl<R: Register> Scalar for Lanes<R> {
     type Jet = DualNumber<Self>;
     const EPSILON: f64 = f64::EPSILON;
     const DUAL_LEVELS: u32 = 0;
+    const IS_SINGLE: bool = false;
 
+    #[inline(always)]
+    fn compiled<O>(f: impl FnOnce() -> O) -> O {
+        <Self as Batch>::run(f)
+    }
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
         Self::splat(x)

@@ -3,12 +3,16 @@
 use core::ops::Range;
 
 use lie::{LieGroup, VectorSpace};
-use trace::{Binary, Degree, Graph, Id, Program};
+use trace::{Binary, Degree, Graph, Id, Node, Program, Unary};
 
+use super::elements;
 use super::error::TracedError;
+use super::inertia::{self, Solution};
 use super::translation::Translations;
-use super::{elements, inertia};
 use crate::system::lagrangian::Lagrangian;
+
+/// The most operations for the factors of an inertia that are written on a graph: a program ten times as long takes seconds to make.
+const LIMIT: usize = 1_000_000;
 
 /// Where the inputs are: time, parameters, the numbers of the configuration, and the velocity or the momentum.
 #[derive(Clone, Copy)]
@@ -46,18 +50,29 @@ impl Layout {
     }
 }
 
-/// The program of the velocity and the force, from the graph of the value.
+/// The programs of a Lagrangian that is quadratic in the velocity; each takes time, parameters, numbers and momentum.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Programs {
+    /// The velocity and the force.
+    pub(crate) rates: Program,
+    /// The energy.
+    pub(crate) energy: Program,
+    /// The pivots of the inertia, and its diagonal.
+    pub(crate) inertia: Program,
+}
+
+/// The programs from the graph of the value by the velocity.
 pub(super) fn compile(
     mut value: Graph,
     layout: Layout,
     translations: &Translations,
-) -> Result<Program, TracedError> {
+) -> Result<Programs, TracedError> {
     let (root, inputs) = (value.outputs()[0], value.inputs());
     let velocity = &inputs[layout.velocity()];
     let slopes = value.gradient(root, &inputs[layout.numbers().start..]);
     let (by_numbers, momenta) = slopes.split_at(layout.numbers);
-    let linear = |m: &Id| value.degree(*m, velocity) <= Degree::Linear;
-    if let Some(coordinate) = momenta.iter().position(|m| !linear(m)) {
+    let degrees = value.degrees(momenta, velocity);
+    if let Some(coordinate) = degrees.iter().position(|d| *d > Degree::Linear) {
         return Err(TracedError::NotQuadratic { coordinate });
     }
     let (pattern, entries) = value.jacobian(momenta, velocity);
@@ -73,10 +88,47 @@ pub(super) fn compile(
         .map(|(mu, b)| without(&mut graph, *mu, b))
         .collect();
     let entries = graph.call(&value, &rest, &entries);
-    let mut out = inertia::solve(&mut graph, (&pattern, &entries), &moving);
-    let slopes = graph.call(&value, &[&known[..], &out].concat(), by_numbers);
+    let solution = inertia::solve(&mut graph, (&pattern, &entries), &moving, LIMIT);
+    let Solution {
+        x: xi,
+        pivots,
+        diagonal,
+    } = solution.ok_or(TracedError::Dense {
+        dim: layout.dim,
+        limit: LIMIT,
+    })?;
+    let wanted = [by_numbers, &[root]].concat();
+    let mut slopes = graph.call(&value, &[&known[..], &xi].concat(), &wanted);
+    let value_there = slopes.pop().unwrap_or(root);
+    let mut out = xi.clone();
     out.extend(translations.trivialise(&mut graph, &known[layout.numbers()], &slopes));
-    Ok(Program::new(&graph, &out))
+    if has_logarithm(&value) {
+        poison(&mut graph, value_there, &mut out);
+    }
+    let mut energy = graph.unary(Unary::Neg, value_there);
+    for (mu, xi) in mu.iter().zip(&xi) {
+        energy = graph.mul_add([*mu, *xi, energy]);
+    }
+    Ok(Programs {
+        rates: Program::new(&graph, &out),
+        energy: Program::new(&graph, &[energy]),
+        inertia: Program::new(&graph, &[pivots, diagonal].concat()),
+    })
+}
+
+/// Whether there is a logarithm: its derivative is a number where it is none itself.
+pub(super) fn has_logarithm(graph: &Graph) -> bool {
+    graph
+        .nodes()
+        .any(|node| matches!(node, Node::Unary(Unary::Ln, _)))
+}
+
+/// Makes the first result no number where `value` is none.
+pub(super) fn poison(graph: &mut Graph, value: Id, out: &mut [Id]) {
+    let zero = graph.constant(0.0);
+    if let Some(first) = out.first_mut() {
+        *first = graph.mul_add([zero, value, *first]);
+    }
 }
 
 /// A momentum less that at rest.

@@ -5,7 +5,7 @@ use core::cell::Cell;
 use lie::{LieGroup, Over, RealGroup, Scalar};
 
 /// How many numbers there are.
-pub(super) fn count<G: RealGroup>(g: &G) -> usize {
+pub(crate) fn count<G: RealGroup>(g: &G) -> usize {
     let found = Cell::new(0);
     G::convert::<f64, f64>(g, |x| {
         found.set(found.get() + 1);
@@ -15,7 +15,7 @@ pub(super) fn count<G: RealGroup>(g: &G) -> usize {
 }
 
 /// An element of the shape of `g` that has these numbers.
-pub(super) fn with_numbers<G: RealGroup, S: Scalar>(g: &G, numbers: &[S]) -> Over<G, S> {
+pub(crate) fn with_numbers<G: RealGroup, S: Scalar>(g: &G, numbers: &[S]) -> Over<G, S> {
     let next = Cell::new(0);
     G::convert::<f64, S>(g, |_| {
         let k = next.replace(next.get() + 1);

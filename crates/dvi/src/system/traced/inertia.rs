@@ -4,55 +4,80 @@ use std::collections::BTreeMap;
 
 use trace::{Binary, Graph, Id, Pattern};
 
-/// The lower triangle of a sparse symmetric matrix, by rows and columns.
-type Triangle = BTreeMap<(usize, usize), Id>;
+/// A column of the lower triangle of a sparse symmetric matrix, by rows.
+type Column = BTreeMap<usize, Id>;
 
-/// The solution of $H x = b$ by $H = L D L^T$ without exchanges of rows.
+/// The solution of $H x = b$, and the pivots that it divides by.
+pub(super) struct Solution {
+    pub(super) x: Vec<Id>,
+    /// The pivots before their signs are looked at.
+    pub(super) pivots: Vec<Id>,
+    /// The entries of $H$ on the diagonal.
+    pub(super) diagonal: Vec<Id>,
+}
+
+/// The solution of $H x = b$ by $H = L D L^T$ without exchanges of rows; none where that takes more operations than `limit`.
 ///
 /// Where a pivot is not positive, so that $H$ is no inertia, the solution is not a number.
-pub(super) fn solve(graph: &mut Graph, (pattern, entries): (&Pattern, &[Id]), b: &[Id]) -> Vec<Id> {
-    let (n, mut h) = (b.len(), lower(pattern, entries));
-    let mut x = b.to_vec();
-    let pivots: Vec<Id> = (0..n)
-        .map(|k| eliminate(graph, &mut h, &mut x, k))
-        .collect();
-    for k in (0..n).rev() {
-        x[k] = graph.binary(Binary::Div, x[k], pivots[k]);
-        for i in k + 1..n {
-            if let Some(factor) = h.get(&(i, k)) {
-                x[k] = graph.neg_mul_add([*factor, x[i], x[k]]);
-            }
+pub(super) fn solve(
+    graph: &mut Graph,
+    (pattern, entries): (&Pattern, &[Id]),
+    b: &[Id],
+    limit: usize,
+) -> Option<Solution> {
+    let mut columns = lower(pattern, entries);
+    let zero = graph.constant(0.0);
+    let on_diagonal = |(k, column): (usize, &Column)| column.get(&k).copied().unwrap_or(zero);
+    let diagonal: Vec<Id> = columns.iter().enumerate().map(on_diagonal).collect();
+    let (mut x, mut operations) = (b.to_vec(), 0);
+    let (mut pivots, mut divisors) = (Vec::new(), Vec::new());
+    for k in 0..x.len() {
+        let below = columns[k].len();
+        operations += below * below / 2;
+        if operations > limit {
+            return None;
+        }
+        let (pivot, divisor) = eliminate(graph, &mut columns, &mut x, k);
+        pivots.push(pivot);
+        divisors.push(divisor);
+    }
+    for k in (0..x.len()).rev() {
+        x[k] = graph.binary(Binary::Div, x[k], divisors[k]);
+        for (i, factor) in columns[k].range(k + 1..) {
+            x[k] = graph.neg_mul_add([*factor, x[*i], x[k]]);
         }
     }
-    x
+    Some(Solution {
+        x,
+        pivots,
+        diagonal,
+    })
 }
 
-fn lower(pattern: &Pattern, entries: &[Id]) -> Triangle {
+fn lower(pattern: &Pattern, entries: &[Id]) -> Vec<Column> {
+    let mut columns = vec![Column::new(); pattern.rows()];
     let row = |i: usize| pattern.row(i).iter().map(move |j| (i, *j));
     let places = (0..pattern.rows()).flat_map(row).zip(entries);
-    places
-        .filter(|((i, j), _)| j <= i)
-        .map(|(at, id)| (at, *id))
-        .collect()
+    for ((i, j), id) in places.filter(|((i, j), _)| j <= i) {
+        columns[j].insert(i, *id);
+    }
+    columns
 }
 
-/// Leaves the factors of column `k` in its place, and gives its pivot.
-fn eliminate(graph: &mut Graph, h: &mut Triangle, x: &mut [Id], k: usize) -> Id {
+/// Leaves the factors of column `k` in its place, and gives its pivot; as it is, and as what is divided by.
+fn eliminate(graph: &mut Graph, columns: &mut [Column], x: &mut [Id], k: usize) -> (Id, Id) {
     let (zero, none) = (graph.constant(0.0), graph.constant(f64::NAN));
-    let pivot = h.get(&(k, k)).copied().unwrap_or(none);
-    let pivot = graph.select([zero, pivot], pivot, none);
-    let column: Vec<(usize, Id)> = (k + 1..x.len())
-        .filter_map(|i| Some((i, *h.get(&(i, k))?)))
-        .collect();
+    let pivot = columns[k].get(&k).copied().unwrap_or(zero);
+    let divisor = graph.select([zero, pivot], pivot, none);
+    let column: Vec<(usize, Id)> = columns[k].range(k + 1..).map(|(i, x)| (*i, *x)).collect();
     for (i, entry) in &column {
-        let factor = graph.binary(Binary::Div, *entry, pivot);
+        let factor = graph.binary(Binary::Div, *entry, divisor);
         x[*i] = graph.neg_mul_add([factor, x[k], x[*i]]);
         for (j, above) in column.iter().filter(|(j, _)| j <= i) {
-            let old = h.get(&(*i, *j)).copied();
-            let old = old.unwrap_or_else(|| graph.constant(0.0));
-            h.insert((*i, *j), graph.neg_mul_add([factor, *above, old]));
+            let old = columns[*j].get(i).copied().unwrap_or(zero);
+            columns[*j].insert(*i, graph.neg_mul_add([factor, *above, old]));
         }
-        h.insert((*i, k), factor);
+        columns[k].insert(*i, factor);
     }
-    pivot
+    (pivot, divisor)
 }

@@ -1,70 +1,128 @@
 //! What an evaluation writes to.
 
-use lie::{DualOver, LieGroup, Over, Scalar, VectorSpace};
+use std::sync::Arc;
+
+use lie::{DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 use trace::Program;
 
+use super::compile::Programs;
 use super::elements;
 use crate::system::context::Context;
-use crate::system::lagrangian::Lagrangian;
 
 /// Storage of an evaluation, made when first needed.
-pub struct TracedWorkspace<L: Lagrangian, S: Scalar>(Option<Storage<L, S>>);
+pub struct TracedWorkspace<G: RealGroup, S: Scalar>(Option<Storage<G, S>>);
 
-/// Storage for configurations of one shape.
-pub(super) struct Storage<L: Lagrangian, S: Scalar> {
-    memory: Vec<S>,
-    inputs: Vec<S>,
-    outputs: Vec<S>,
-    scratch: Over<L::Group, S>,
-}
-
-impl<L: Lagrangian, S: Scalar> Default for TracedWorkspace<L, S> {
+impl<G: RealGroup, S: Scalar> Default for TracedWorkspace<G, S> {
     fn default() -> Self {
         Self(None)
     }
 }
 
-impl<L: Lagrangian, S: Scalar> TracedWorkspace<L, S> {
-    /// The storage for configurations of the shape of `g`.
+impl<G: RealGroup, S: Scalar> TracedWorkspace<G, S> {
+    /// The velocity and the force, one after the other, for configurations of the shape of `g`; none where nothing is recorded for that shape.
+    ///
+    /// `find` gives what is recorded for a shape.
     #[inline(always)]
-    pub(super) fn of_shape(
+    pub(crate) fn run(
         &mut self,
-        program: &Program,
-        g: &Over<L::Group, S>,
-    ) -> &mut Storage<L, S> {
+        find: impl FnOnce() -> Option<Arc<Programs>>,
+        at: Context<S>,
+        g: &Over<G, S>,
+        mu: &DualOver<G, S>,
+    ) -> Option<&[S]> {
         self.0.take_if(|known| !known.scratch.same_shape(g));
-        self.0.get_or_insert_with(|| Storage {
-            memory: program.memory(),
-            inputs: vec![S::zero(); program.inputs()],
-            outputs: vec![S::zero(); program.outputs()],
-            scratch: g.clone(),
-        })
+        let storage = self.0.get_or_insert_with(
+            #[cold]
+            || Storage::new(find(), g),
+        );
+        let programs = storage.programs.as_ref()?;
+        let of = (&mut storage.numbers, &mut storage.scratch);
+        run::<G, S>(&programs.rates, of, at, g, mu)
     }
 }
 
-impl<L: Lagrangian, S: Scalar> Storage<L, S> {
-    /// The outputs of the program; none where it was recorded for another shape.
-    #[inline(always)]
-    pub(super) fn run(
-        &mut self,
-        program: &Program,
-        at: Context<S>,
-        g: &Over<L::Group, S>,
-        mu: &DualOver<L::Group, S>,
-    ) -> Option<&[S]> {
-        let before = self.inputs.len().checked_sub(mu.dim())?;
-        let (head, momentum) = self.inputs.split_at_mut(before);
-        let (context, numbers) = head.split_at_mut_checked(1 + at.all.len())?;
-        context[0] = at.t;
-        context[1..].copy_from_slice(at.all);
-        mu.write(momentum);
-        let fits = elements::write::<L::Group, S>(g, &mut self.scratch, numbers);
-        if !fits || self.outputs.len() != 2 * mu.dim() {
-            return None;
+/// Storage for configurations of one shape.
+struct Storage<G: RealGroup, S: Scalar> {
+    programs: Option<Arc<Programs>>,
+    numbers: Numbers<S>,
+    scratch: Over<G, S>,
+}
+
+impl<G: RealGroup, S: Scalar> Storage<G, S> {
+    #[inline(never)]
+    fn new(programs: Option<Arc<Programs>>, g: &Over<G, S>) -> Self {
+        Self {
+            numbers: programs
+                .as_ref()
+                .map_or_else(Numbers::default, |programs| Numbers::of(&programs.rates)),
+            programs,
+            scratch: g.clone(),
         }
-        program
-            .run(&mut self.memory, &self.inputs, &mut self.outputs)
-            .ok()?;
-        Some(&self.outputs)
     }
+}
+
+/// What a program reads and writes.
+struct Numbers<S> {
+    memory: Vec<S>,
+    inputs: Vec<S>,
+    outputs: Vec<S>,
+}
+
+impl<S> Default for Numbers<S> {
+    fn default() -> Self {
+        Self {
+            memory: Vec::new(),
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+}
+
+impl<S: Scalar> Numbers<S> {
+    fn of(program: &Program) -> Self {
+        Self {
+            memory: program.memory(),
+            inputs: vec![S::zero(); program.inputs()],
+            outputs: vec![S::zero(); program.outputs()],
+        }
+    }
+}
+
+/// What a program gives for one state; none where it was recorded for another shape.
+pub(super) fn once<G: RealGroup>(
+    program: &Program,
+    at: Context<f64>,
+    g: &G,
+    mu: &G::Dual,
+) -> Option<Vec<f64>> {
+    let (mut numbers, mut scratch) = (Numbers::of(program), g.clone());
+    let out = run::<G, f64>(program, (&mut numbers, &mut scratch), at, g, mu);
+    out.map(<[f64]>::to_vec)
+}
+
+/// The outputs of the program; none where it was recorded for another shape.
+#[inline(always)]
+fn run<'a, G: RealGroup, S: Scalar>(
+    program: &Program,
+    (numbers, scratch): (&'a mut Numbers<S>, &mut Over<G, S>),
+    at: Context<S>,
+    g: &Over<G, S>,
+    mu: &DualOver<G, S>,
+) -> Option<&'a [S]> {
+    let before = numbers.inputs.len().checked_sub(mu.dim())?;
+    let (head, momentum) = numbers.inputs.split_at_mut(before);
+    let (context, of_g) = head.split_at_mut_checked(1 + at.all.len())?;
+    context[0] = at.t;
+    context[1..].copy_from_slice(at.all);
+    mu.write(momentum);
+    if !elements::write::<G, S>(g, scratch, of_g) {
+        return None;
+    }
+    let Numbers {
+        memory,
+        inputs,
+        outputs,
+    } = numbers;
+    program.run(memory, inputs, outputs).ok()?;
+    Some(outputs)
 }

@@ -1,87 +1,99 @@
 //! How the numbers of a group element change along left-trivialised velocities.
 
-use lie::{Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
+use lie::{Cayley, LieGroup, Over, RealGroup, VectorSpace};
 use trace::{Degree, Graph, Id, TraceError, Traced, record};
 
 use super::elements::{count, numbers, with_numbers};
-use crate::numerics::duals::for_each_chunk;
-
-/// Dual numbers over recorded ones.
-type J = <Traced as Scalar>::Jet;
 
 /// The derivatives $\partial n_k(g \exp \zeta) / \partial \zeta_d$ at $\zeta = 0$ of the numbers $n_k$ of an element, as formulas of these.
-pub(super) struct Translations {
+///
+/// Of each number those directions alone that change it: few, whatever the size of the group.
+pub(crate) struct Translations {
     graph: Graph,
-    /// A row of directions for each number.
+    /// The directions of each number, with the derivatives along them.
+    rates: Vec<Vec<(usize, Id)>>,
     dim: usize,
 }
 
 impl Translations {
-    pub(super) fn new<G: RealGroup>(g: &G) -> Result<Self, TraceError> {
-        let dim = g.zero_algebra().dim();
-        let mut graph = record(count(g), |n| derivatives(g, n))?;
-        let out: Vec<Id> = graph.outputs().to_vec();
-        let simple: Vec<Id> = out.iter().map(|y| without_zeros(&mut graph, *y)).collect();
-        graph.set_outputs(&simple);
-        Ok(Self { graph, dim })
+    pub(crate) fn new<G: RealGroup>(g: &G) -> Result<Self, TraceError> {
+        let (numbers, dim) = (count(g), g.zero_algebra().dim());
+        let mut moved = record(numbers + dim, |x| moved(g, x.split_at(numbers)))?;
+        let (out, inputs) = (moved.outputs().to_vec(), moved.inputs());
+        let (pattern, slopes) = moved.jacobian(&out, &inputs[numbers..]);
+
+        let mut graph = Graph::new(numbers);
+        let mut still = graph.inputs();
+        still.resize(numbers + dim, graph.constant(0.0));
+        let slopes = graph.call(&moved, &still, &slopes);
+        let mut slopes = without_zeros(&mut graph, &slopes).into_iter();
+        let rates = (0..numbers).map(|k| {
+            let row = pattern.row(k).iter().copied().zip(slopes.by_ref());
+            row.filter(|(_, rate)| graph.as_constant(*rate) != Some(0.0))
+                .collect()
+        });
+        Ok(Self {
+            rates: rates.collect(),
+            graph,
+            dim,
+        })
     }
 
     /// The left-trivialised derivative of what has the derivatives `slopes` by the numbers `n`.
-    pub(super) fn trivialise(&self, graph: &mut Graph, n: &[Id], slopes: &[Id]) -> Vec<Id> {
-        let rates = graph.call(&self.graph, n, self.graph.outputs());
+    pub(crate) fn trivialise(&self, graph: &mut Graph, n: &[Id], slopes: &[Id]) -> Vec<Id> {
         let mut tau = vec![graph.constant(-0.0); self.dim];
-        for (slope, rates) in slopes.iter().zip(rates.chunks_exact(self.dim.max(1))) {
-            for (sum, rate) in tau.iter_mut().zip(rates) {
-                // Neither a number that L does not depend on nor a direction that does not change it.
-                if graph.as_constant(*slope) != Some(0.0) && graph.as_constant(*rate) != Some(0.0) {
-                    *sum = graph.mul_add([*slope, *rate, *sum]);
-                }
+        for (slope, rates) in slopes.iter().zip(&self.rates) {
+            // A number that L does not depend on.
+            if graph.as_constant(*slope) == Some(0.0) {
+                continue;
+            }
+            let directions: Vec<Id> = rates.iter().map(|(_, rate)| *rate).collect();
+            let values = graph.call(&self.graph, n, &directions);
+            for ((d, _), rate) in rates.iter().zip(values) {
+                tau[*d] = graph.mul_add([*slope, rate, tau[*d]]);
             }
         }
         tau
     }
 }
 
-fn derivatives<G: RealGroup>(g: &G, n: &[Traced]) -> Vec<Traced> {
-    let lifted: Vec<J> = n.iter().map(|x| J::constant(*x)).collect();
-    let g = with_numbers(g, &lifted);
+/// The numbers of $g \exp \zeta$; to first order, any retraction is the exponential.
+fn moved<G: RealGroup>(g: &G, (n, along): (&[Traced], &[Traced])) -> Vec<Traced> {
+    let g = with_numbers(g, n);
     let mut zeta = g.zero_algebra();
-    let dim = zeta.dim();
-    let mut all = vec![Traced::from_f64(0.0); n.len() * dim];
-    for_each_chunk(dim, |first| {
-        lie::seed(&mut zeta, first);
-        let moved = g.compose(&Over::<G, J>::exp(&zeta));
-        for (row, x) in all.chunks_exact_mut(dim).zip(numbers::<G, J>(&moved)) {
-            let partials = row[first..].iter_mut().take(lie::JET_DIRECTIONS);
-            partials.enumerate().for_each(|(d, y)| *y = x.partial(d));
-        }
-    });
-    all
+    zeta.read(along);
+    let small = Over::<G, Traced>::retract::<Cayley>(&zeta);
+    numbers::<G, Traced>(&g.compose(&small))
 }
 
-/// The same derivative without the terms that are zero for every element; products of matrices leave many.
+/// The same derivatives without the terms that are zero for every element; products of matrices leave many.
 ///
-/// It is linear in the numbers of a matrix; a derivative that is not stays as it is.
-fn without_zeros(graph: &mut Graph, y: Id) -> Id {
+/// They are linear in the numbers of a matrix; one that is not stays as it is.
+fn without_zeros(graph: &mut Graph, all: &[Id]) -> Vec<Id> {
     let inputs = graph.inputs();
-    if graph.degree(y, &inputs) > Degree::Linear {
-        return y;
-    }
-    let zeros: Vec<Id> = inputs.iter().map(|_| graph.constant(0.0)).collect();
-    let itself = graph.clone();
-    let start = graph.call(&itself, &zeros, &[y])[0];
-    let start = if graph.as_constant(start) == Some(0.0) {
-        graph.constant(-0.0)
-    } else {
-        start
+    let (degrees, pattern) = (graph.degrees(all, &inputs), graph.pattern(all, &inputs));
+    let mut at_zero = Graph::new(0);
+    let zeros = vec![at_zero.constant(0.0); inputs.len()];
+    let starts = at_zero.call(&*graph, &zeros, all);
+    let linear = |(i, y): (usize, &Id)| {
+        if degrees[i] > Degree::Linear {
+            return *y;
+        }
+        let start = at_zero.as_constant(starts[i]).filter(|start| *start != 0.0);
+        let start = graph.constant(start.unwrap_or(-0.0));
+        let columns: Vec<Id> = pattern.row(i).iter().map(|j| inputs[*j]).collect();
+        let slopes = graph.gradient(*y, &columns).into_iter();
+        let terms = slopes
+            .zip(columns)
+            .filter(|(slope, _)| !is_zero(graph, *slope));
+        let terms: Vec<(Id, Id)> = terms.collect();
+        terms
+            .into_iter()
+            .fold(start, |sum, (slope, x)| graph.mul_add([slope, x, sum]))
     };
-    let columns: Vec<Id> = graph
-        .pattern(&[y], &inputs)
-        .row(0)
-        .iter()
-        .map(|j| inputs[*j])
-        .collect();
-    let slopes = graph.gradient(y, &columns);
-    let terms = slopes.into_iter().zip(columns);
-    terms.fold(start, |sum, (slope, x)| graph.mul_add([slope, x, sum]))
+    all.iter().enumerate().map(linear).collect()
+}
+
+fn is_zero(graph: &Graph, x: Id) -> bool {
+    graph.as_constant(x) == Some(0.0)
 }

@@ -1,0 +1,146 @@
+//! Discrete Lagrangians and their derivatives, recorded once.
+
+use std::sync::Arc;
+
+use lie::{LieGroup, Over, RealGroup, Scalar};
+use trace::{Program, record};
+
+use super::cache::{Cache, Whose};
+use super::compile::{has_logarithm, poison};
+use super::elements;
+use super::error::TracedError;
+use super::translation::Translations;
+use crate::system::context::Context;
+use crate::system::discrete::DiscreteLagrangian;
+use crate::system::lifted::Arguments;
+
+/// The program of $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$ and $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$, by time, parameters,
+/// the numbers of $g$ and of $f$, and $h$.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct DiscreteProgram(Program);
+
+impl DiscreteProgram {
+    /// That of a discrete Lagrangian, for configurations of the shape of `g`.
+    pub(crate) fn of<L: DiscreteLagrangian + ?Sized>(
+        lagrangian: &L,
+        g: &L::Group,
+    ) -> Result<Self, TracedError> {
+        let (context, numbers) = (1 + lagrangian.parameters().len(), elements::count(g));
+        let (end_g, end_f) = (context + numbers, context + 2 * numbers);
+        let mut graph = record(end_f + 1, |x| {
+            let at = Context::new(x[0], &x[1..context]);
+            let element = |n: &[_]| elements::with_numbers(g, n);
+            let (g, f) = (element(&x[context..end_g]), element(&x[end_g..end_f]));
+            vec![lagrangian.value(at, &g, &f, x[end_f])]
+        })?;
+        let (root, inputs) = (graph.outputs()[0], graph.inputs());
+        let (of_g, of_f) = (&inputs[context..end_g], &inputs[end_g..end_f]);
+        let slopes = graph.gradient(root, &[of_f, of_g].concat());
+        let (by_f, by_g) = slopes.split_at(numbers);
+        let translations = Translations::new(g)?;
+        let mut out = translations.trivialise(&mut graph, of_f, by_f);
+        let mut d_g = translations.trivialise(&mut graph, of_g, by_g);
+        if has_logarithm(&graph) {
+            poison(&mut graph, root, &mut out);
+            poison(&mut graph, root, &mut d_g);
+        }
+        out.extend(d_g);
+        Ok(Self(Program::new(&graph, &out)))
+    }
+}
+
+/// What discrete Lagrangians by their value alone have in common in one integrator: what is recorded of theirs, or why nothing is.
+pub(crate) type DiscreteCache<G> = Cache<G, DiscreteProgram>;
+
+/// A recorded discrete Lagrangian, with storage to run it.
+pub(crate) struct DiscreteRecording<G: RealGroup, S: Scalar> {
+    cache: DiscreteCache<G>,
+    storage: Option<Storage<G, S>>,
+}
+
+struct Storage<G: RealGroup, S: Scalar> {
+    whose: Whose,
+    program: Result<Arc<DiscreteProgram>, TracedError>,
+    memory: Vec<S>,
+    inputs: Vec<S>,
+    outputs: Vec<S>,
+    scratch: Over<G, S>,
+}
+
+impl<G: RealGroup, S: Scalar> DiscreteRecording<G, S> {
+    pub(crate) fn new(cache: DiscreteCache<G>) -> Self {
+        Self {
+            cache,
+            storage: None,
+        }
+    }
+
+    /// Why there is no recording; none where there is one, or where none was asked for.
+    pub(crate) fn refusal(&self) -> Option<TracedError> {
+        self.storage.as_ref()?.program.as_ref().err().copied()
+    }
+
+    /// $d_f$ and $d_g$, one after the other; none where the value cannot be recorded.
+    pub(crate) fn run<L: DiscreteLagrangian<Group = G> + ?Sized>(
+        &mut self,
+        lagrangian: &L,
+        (at, (g, f), h): Arguments<'_, G, S>,
+    ) -> Option<&[S]> {
+        let whose = Whose::of(lagrangian);
+        let fits = |known: &Storage<G, S>| known.whose == whose && known.scratch.same_shape(g);
+        self.storage.take_if(|known| !fits(known));
+        let cache = &self.cache;
+        let storage = self.storage.get_or_insert_with(|| {
+            // The shape alone matters.
+            let shape = G::convert::<S, f64>(g, |_| 0.0);
+            let record = || DiscreteProgram::of(lagrangian, &shape);
+            Storage::new(whose, cache.find(&shape, whose, record), g)
+        });
+        let DiscreteProgram(program) = &**storage.program.as_ref().ok()?;
+        let Storage {
+            memory,
+            inputs,
+            outputs,
+            scratch,
+            ..
+        } = storage;
+        let (context, elements) = inputs.split_at_mut_checked(1 + at.all.len())?;
+        let (last, elements) = elements.split_last_mut()?;
+        let (of_g, of_f) = elements.split_at_mut(elements.len() / 2);
+        context[0] = at.t;
+        context[1..].copy_from_slice(at.all);
+        *last = h;
+        let fit =
+            elements::write::<G, S>(g, scratch, of_g) && elements::write::<G, S>(f, scratch, of_f);
+        (fit && program.run(memory, inputs, outputs).is_ok()).then_some(&outputs[..])
+    }
+}
+
+impl<G: RealGroup, S: Scalar> Storage<G, S> {
+    fn new(
+        whose: Whose,
+        program: Result<Arc<DiscreteProgram>, TracedError>,
+        g: &Over<G, S>,
+    ) -> Self {
+        let (memory, inputs, outputs) = match &program {
+            Ok(program) => {
+                let DiscreteProgram(program) = &**program;
+                let zeros = |n: usize| vec![S::zero(); n];
+                (
+                    program.memory(),
+                    zeros(program.inputs()),
+                    zeros(program.outputs()),
+                )
+            }
+            Err(_) => Default::default(),
+        };
+        Self {
+            whose,
+            program,
+            memory,
+            inputs,
+            outputs,
+            scratch: g.clone(),
+        }
+    }
+}

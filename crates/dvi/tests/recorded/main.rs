@@ -1,0 +1,5 @@
+//! Systems by their value alone run on what was recorded of it, and say so.
+
+mod beam;
+mod means;
+mod steps;
