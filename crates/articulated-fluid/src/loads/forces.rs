@@ -2,43 +2,12 @@
 
 use lie::{Cotangent, Mat3, SO3, Scalar, Vec3};
 
-use super::size::is_size;
-use super::told::{Aim, Told, ToldInJoint};
-use super::{Drag, Servo, Thrust, Torque};
+use super::joint_load::{JointLoad, ToldInJoint};
+use super::servo::Aim;
+use super::told::Told;
+use super::{Drag, Thrust, Torque};
 use crate::motion;
 use crate::tree::{ArticulatedBody, Configuration};
-
-/// What acts in a joint beside its spring.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct JointLoad {
-    /// $d \ge 0$ of a damper with the torque $-d \omega$ on the child, N m s/rad.
-    pub damping: f64,
-    /// As told.
-    pub torque: Option<Torque>,
-    /// A motor.
-    pub servo: Option<Servo>,
-}
-
-impl JointLoad {
-    /// Whether it does anything.
-    pub fn acts(&self) -> bool {
-        self.damping != 0.0 || self.torque.is_some() || self.servo.is_some()
-    }
-
-    /// The slope of its torque against the rate, $d + k_d$, N m s/rad.
-    pub(crate) fn resistance(&self) -> f64 {
-        self.damping + self.servo.as_ref().map_or(0.0, |servo| servo.damping)
-    }
-
-    /// Whether it is one of a hinge, or of a ball, and its numbers are sound.
-    pub(super) fn suits(&self, is_hinge: bool) -> bool {
-        let torque = self.torque.as_ref();
-        let of_hinge = torque.is_none_or(|torque| matches!(torque, Torque::Hinge(_)) == is_hinge);
-        let servo = self.servo.as_ref();
-        let sound = servo.is_none_or(|servo| servo.suits(is_hinge));
-        of_hinge && sound && is_size(self.damping)
-    }
-}
 
 /// A joint with a load.
 #[derive(Clone, Debug, PartialEq)]
@@ -214,7 +183,9 @@ impl Forces {
         ForceWork { told, sums: work }: &mut ForceWork<S>,
         torques: &mut [Cotangent<3, S>],
     ) -> Vec3<S> {
-        told.read(self, (tree.identity, at.t));
+        let joints = self.joints.iter().map(|joint| joint.told(at.t));
+        let thrusts = self.thrusts.iter().map(|(_, thrust)| thrust.wrench(at.t));
+        told.read((tree.identity, at.t), joints, thrusts);
         let mut add = |i: usize, torque: Vec3<S>| {
             torques[i] = (torques[i].vec3() + torque * scale).into();
         };

@@ -2,9 +2,10 @@
 
 use lie::Vec3;
 
-use super::forces::{JointLoad, LoadedJoint};
+use super::forces::LoadedJoint;
 use super::gravity::Weight;
 use super::hinge_spring::{HingeSpring, HingeSprings};
+use super::joint_load::JointLoad;
 use super::spring::{Spring, Springs};
 use super::{Drag, Thrust};
 use crate::error::ModelError;

@@ -3,8 +3,18 @@
 use lie::{Mat3, Scalar, Vec3};
 
 use super::size::is_size;
-use super::told::Aim;
 use crate::motion::Motion;
+
+/// What a servo follows at a time.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Aim<S> {
+    /// Nothing: there is none.
+    None,
+    /// $Q$ and $a$.
+    Ball(Mat3<S>, Vec3<S>),
+    /// $q_d$ and $\dot q_d$.
+    Hinge([S; 2]),
+}
 
 /// A motor in a joint that pulls it towards a told attitude, and brakes what moves otherwise.
 ///
