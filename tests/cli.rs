@@ -745,6 +745,34 @@ fn inspect_tells_the_smallest_exact_model_and_why() {
 }
 
 #[test]
+fn inspect_tells_what_acts_and_what_is_kept() {
+    let directory = directory();
+    let told = |name: &str| json(directory.path(), &["inspect", &shipped(name), "--json"]);
+    let vehicle = told("loads/vehicle");
+    assert_eq!(
+        vehicle["acts"],
+        serde_json::json!(["drag on vehicle", "thrust on vehicle"])
+    );
+    assert_eq!(vehicle["keeps"], serde_json::json!(["energy less work"]));
+    // Drag is not linear in the velocity: the displacement stays among the unknowns.
+    assert_eq!(vehicle["unknowns"], vehicle["full_dimension"]);
+    let translation = &vehicle["reductions"][0];
+    assert_eq!(
+        (&translation["name"], &translation["taken"]),
+        (&"translation".into(), &false.into())
+    );
+    let fish = told("fish-chain");
+    assert_eq!(fish["acts"], serde_json::json!([]));
+    let all = [
+        "energy",
+        "symplectic form",
+        "linear momentum",
+        "angular momentum",
+    ];
+    assert_eq!(fish["keeps"], serde_json::json!(all));
+}
+
+#[test]
 fn inspect_tells_what_was_corrected_in_the_file() {
     let directory = directory();
     let scene = "fluid.density = 1
