@@ -110,10 +110,17 @@ pub(super) fn compile(
         energy = graph.mul_add([*mu, *xi, energy]);
     }
     Ok(Programs {
-        rates: Program::new(&graph, &out),
+        rates: Program::in_order(&graph, &out, &side_by_side(&out)),
         energy: Program::new(&graph, &[energy]),
         inertia: Program::new(&graph, &[pivots, diagonal].concat()),
     })
+}
+
+/// Both halves in step: what is computed for a coordinate of one is near what that of the other needs.
+pub(super) fn side_by_side(out: &[Id]) -> Vec<Id> {
+    let (one, other) = out.split_at(out.len() / 2);
+    let pairs = one.iter().zip(other);
+    pairs.flat_map(|(a, b)| [*a, *b]).collect()
 }
 
 /// Whether there is a logarithm: its derivative is a number where it is none itself.

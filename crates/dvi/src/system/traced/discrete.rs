@@ -6,7 +6,7 @@ use lie::{LieGroup, Over, RealGroup, Scalar};
 use trace::{Program, record};
 
 use super::cache::{Cache, Whose};
-use super::compile::{has_logarithm, poison};
+use super::compile::{has_logarithm, poison, side_by_side};
 use super::elements;
 use super::error::TracedError;
 use super::translation::Translations;
@@ -45,7 +45,11 @@ impl DiscreteProgram {
             poison(&mut graph, root, &mut d_g);
         }
         out.extend(d_g);
-        Ok(Self(Program::new(&graph, &out)))
+        Ok(Self(Program::in_order(
+            &graph,
+            &out,
+            &side_by_side(&out),
+        )))
     }
 }
 
