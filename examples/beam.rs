@@ -8,10 +8,10 @@
 use std::time::Instant;
 
 use lgvi::dvi::{
-    Context, DualSystem, Gauss, Integrator, Lagrangian, Means, Quadrature, State, StepError, System,
-    TracedSystem, Variational,
+    Context, DualSystem, Gauss, Integrator, Lagrangian, Means, Quadrature, State, StepError,
+    System, TracedSystem, Variational,
 };
-use lgvi::lie::{Cayley, LieGroup, Power, SE3, Scalar, Tangent, VectorSpace};
+use lgvi::lie::{Cayley, LieGroup, Power, SE3, Scalar, Tangent};
 
 /// A beam of rubber, 2 cm thick, cut into pieces of 10 cm.
 #[derive(Clone, Copy)]
@@ -46,7 +46,9 @@ impl Lagrangian for Beam {
             );
             // Outside the chart, a bend by half a turn, there is no energy.
             let strain = apart.retract_inverse::<Cayley>();
-            let strain = strain.map_or(Tangent([S::from_f64(f64::NAN); 6]), |c| c * S::from_f64(1.0 / PIECE));
+            let strain = strain.map_or(Tangent([S::from_f64(f64::NAN); 6]), |c| {
+                c * S::from_f64(1.0 / PIECE)
+            });
             (0..6).fold(sum, |sum, k| {
                 let straight = if k == 3 { S::one() } else { S::zero() };
                 sum + square(strain[k] - straight).times(STIFFNESS[k] * PIECE)
@@ -71,10 +73,11 @@ fn start(nodes: usize) -> State<Power<SE3>> {
     Beam.state(0.0, g, &xi).expect("one velocity a node")
 }
 
-/// Seconds of the first step, and of a later one.
+/// Seconds of the first step, and of a later one; and how often the system is evaluated in that.
 struct Cost {
     first: f64,
     later: f64,
+    evaluations: f64,
     means: Means,
 }
 
@@ -91,14 +94,15 @@ fn cost<I: Integrator<Group = Power<SE3>>>(
     for _ in 0..8 {
         integrator.step(&mut state, h)?;
     }
-    let clock = Instant::now();
+    let (clock, mut evaluations) = (Instant::now(), 0);
     for _ in 0..steps {
-        integrator.step(&mut state, h)?;
+        evaluations += integrator.step(&mut state, h)?.evaluations;
     }
     let later = clock.elapsed().as_secs_f64() / f64::from(steps);
     Ok(Cost {
         first,
         later,
+        evaluations: f64::from(evaluations) / f64::from(steps),
         means,
     })
 }
@@ -107,13 +111,15 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
     const H: f64 = 5e-4;
     let midpoint = || Beam.discretise(Quadrature::Midpoint);
     println!("a beam of N nodes, steps of {H} s; times in microseconds");
-    println!("     N  method     recording  first step  later step  a node  derivatives");
+    println!(
+        "     N  method     recording  first step  later step  a node  evaluations  derivatives"
+    );
     let print = |nodes: usize, method: &str, recording: f64, cost: &Cost| {
         let [recording, first, later] = [recording, cost.first, cost.later].map(|t| t * 1e6);
         let each = later / nodes as f64;
         println!(
-            "{nodes:6}  {method:9}  {recording:9.0}  {first:10.0}  {later:10.1}  {each:6.2}  {}",
-            cost.means
+            "{nodes:6}  {method:9}  {recording:9.0}  {first:10.0}  {later:10.1}  {each:6.2}  {:11.1}  {}",
+            cost.evaluations, cost.means
         );
     };
     for nodes in [5, 20, 80, 320] {
@@ -130,7 +136,12 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
         let gauss = Gauss::new::<4>(Beam.hamiltonian());
         print(nodes, "gauss-8", 0.0, &cost(gauss, nodes, (H, steps))?);
         let variational = Variational::new(midpoint());
-        print(nodes, "midpoint", 0.0, &cost(variational, nodes, (H, steps))?);
+        print(
+            nodes,
+            "midpoint",
+            0.0,
+            &cost(variational, nodes, (H, steps))?,
+        );
     }
     let by_duals = Gauss::new::<4>(DualSystem(Beam));
     print(5, "gauss-8", 0.0, &cost(by_duals, 5, (H, 10))?);

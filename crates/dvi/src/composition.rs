@@ -1,10 +1,10 @@
 //! Symmetric composition: higher order from a discrete Lagrangian and its adjoint.
 
-use lie::{LieGroup, VectorSpace};
 use crate::{
     Adjoint, DiscreteLagrangian, FirstVariation, Integrator, Path, State, StepError, StepReport,
     Variation, Variational,
 };
+use lie::{LieGroup, VectorSpace};
 
 /// Suzuki's five equal-sized steps, $\gamma = 1/(4 - 4^{1/3})$ (M. Suzuki, Phys. Lett. A 146, 1990).
 const FOURTH: [f64; 5] = [

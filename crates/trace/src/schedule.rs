@@ -12,7 +12,9 @@ const WINDOW: usize = 256;
 /// A run of one operation is a loop without a decision in it, over numbers that mostly do not need one another.
 pub(crate) fn schedule(instructions: &[Instruction]) -> Vec<Instruction> {
     let windows = instructions.chunks(WINDOW);
-    windows.flat_map(|window| Window::new(window).order()).collect()
+    windows
+        .flat_map(|window| Window::new(window).order())
+        .collect()
 }
 
 struct Window<'a> {

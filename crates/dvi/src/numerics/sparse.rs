@@ -237,7 +237,8 @@ mod tests {
     fn what_is_nearly_a_tree_stays_sparse() {
         let cost = |rows: &[Vec<usize>]| Sparse::new(rows).operations();
         let tree = |n: usize| -> Vec<Vec<usize>> { (0..n).map(|i| vec![i, i / 2]).collect() };
-        let circle = |n: usize| -> Vec<Vec<usize>> { (0..n).map(|i| vec![i, (i + 1) % n]).collect() };
+        let circle =
+            |n: usize| -> Vec<Vec<usize>> { (0..n).map(|i| vec![i, (i + 1) % n]).collect() };
         assert!(cost(&tree(1000)) <= 4 * 1000);
         assert!(cost(&circle(1000)) <= 9 * 1000);
     }

@@ -300,12 +300,18 @@ type At<'a, L, S> = (
     &'a DualOver<<L as System>::Group, S>,
 );
 
+/// Where a velocity and a force go.
+type Rates<'a, L, S> = (
+    &'a mut AlgebraOver<<L as System>::Group, S>,
+    &'a mut DualOver<<L as System>::Group, S>,
+);
+
 /// The velocity and the force of a Lagrangian.
 pub(super) fn velocity_and_force<L: Lagrangian, S: Scalar>(
     lagrangian: &L,
     (at, g, mu): At<L, S>,
     work: &mut LegendreWorkspace<L, S>,
-    (xi, tau): (&mut AlgebraOver<L::Group, S>, &mut DualOver<L::Group, S>),
+    (xi, tau): Rates<L, S>,
 ) {
     let work = work.for_shape_of(g);
     invert(lagrangian, (at, g, mu), work, xi);

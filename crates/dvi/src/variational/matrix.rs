@@ -29,10 +29,7 @@ impl<L: DiscreteLagrangian> Matrix<L> {
     /// A contraction slower than this asks for a [new matrix](Self::renew): an exact one costs as much as tens of iterations.
     pub(super) const SLOW: f64 = if L::HAS_INERTIA { 0.6 } else { 0.2 };
 
-    pub(super) fn new(
-        g: &L::Group,
-        (cache, keeps_all): (DiscreteCache<L::Group>, bool),
-    ) -> Self {
+    pub(super) fn new(g: &L::Group, (cache, keeps_all): (DiscreteCache<L::Group>, bool)) -> Self {
         Self {
             h: 0.0,
             keeps_all,

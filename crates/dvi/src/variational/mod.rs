@@ -11,13 +11,13 @@ mod warm_start;
 use lie::{LieGroup, VectorSpace};
 
 use crate::step::{check_momentum, check_step, finite};
+use crate::system::DiscreteCache;
 use crate::{
     Cause, DiscreteLagrangian, FirstVariation, Hint, Integrator, Pair, State, StepError,
     StepReport, Still, Variation, legendre_plus,
 };
 use linearised::Linearised;
 pub(crate) use newton::degenerate;
-use crate::system::DiscreteCache;
 use solve::{End, Ended, Goal, Work, is_rounding};
 
 /// The default [tolerance](Variational::with_tolerance) for up to `FEW` coordinates.
@@ -39,7 +39,7 @@ const NORMALIZE_EVERY: u64 = 32;
 /// for the first time.
 ///
 /// The matrix of the iteration is the model's own inertia, where it [has one](DiscreteLagrangian::HAS_INERTIA): a tree of N bodies then steps
-/// in O(N). Else it comes from dual numbers, and is dense.
+/// in O(N). Else it comes from dual numbers; it is sparse where the recorded balance is, and dense elsewhere.
 pub struct Variational<L: DiscreteLagrangian> {
     lagrangian: L,
     tolerance: Option<f64>,
@@ -96,7 +96,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
     /// As [`step`](Integrator::step).
     pub fn displacement(&mut self, state: &State<L::Group>, h: f64) -> Result<L::Group, StepError> {
         self.solve(state, h)?;
-        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), (&self.cache, self.keeps_all));
+        let work = Self::work_of(
+            &self.lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         let f = work.balance.f.clone();
         let end = state.g.compose(&f);
         let ends = require_end(&self.lagrangian, state.t + h, &end, &work.still);
@@ -158,7 +163,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
     /// Takes the step that was solved.
     fn advance(&mut self, state: &mut State<L::Group>, h: f64) -> Result<(), StepError> {
         let normalizes = self.normalizes();
-        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), (&self.cache, self.keeps_all));
+        let work = Self::work_of(
+            &self.lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         state.g.compose_into(&work.balance.f, &mut work.next);
         if normalizes {
             work.next.normalize();
@@ -193,7 +203,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
 
     /// The storage of a step that was solved.
     fn work(&mut self, state: &State<L::Group>, h: f64) -> &mut Work<L> {
-        Self::work_of(&self.lagrangian, &mut self.work, (state, h), (&self.cache, self.keeps_all))
+        Self::work_of(
+            &self.lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        )
     }
 
     /// The storage for states of this shape, made when there is none.
@@ -203,7 +218,14 @@ impl<L: DiscreteLagrangian> Variational<L> {
         (state, h): (&State<L::Group>, f64),
         (cache, keeps_all): (&DiscreteCache<L::Group>, bool),
     ) -> &'a mut Work<L> {
-        let new = || Work::new(lagrangian, (state.t, h), &state.g, (cache.clone(), keeps_all));
+        let new = || {
+            Work::new(
+                lagrangian,
+                (state.t, h),
+                &state.g,
+                (cache.clone(), keeps_all),
+            )
+        };
         work.get_or_insert_with(new)
     }
 
@@ -225,7 +247,12 @@ impl<L: DiscreteLagrangian> Variational<L> {
             self.work = None;
         }
         let lagrangian = &self.lagrangian;
-        let work = Self::work_of(lagrangian, &mut self.work, (state, h), (&self.cache, self.keeps_all));
+        let work = Self::work_of(
+            lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         check_momentum(&state.mu, &work.balance.residual)?;
         let few = (state.mu.dim() as f64 / FEW).sqrt().max(1.0);
         let goal = Goal {
@@ -330,7 +357,12 @@ impl<L: DiscreteLagrangian> Integrator for Variational<L> {
 
     fn peek(&mut self, state: &State<L::Group>, h: f64) -> Result<State<L::Group>, StepError> {
         self.solve(state, h)?;
-        let work = Self::work_of(&self.lagrangian, &mut self.work, (state, h), (&self.cache, self.keeps_all));
+        let work = Self::work_of(
+            &self.lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         let balance = &work.balance;
         let ahead = State {
             t: state.t + h,
@@ -360,7 +392,12 @@ impl<L: DiscreteLagrangian> FirstVariation for Variational<L> {
         let new = || Linearised::new(&state.g, self.cache.clone());
         let mut linearised = self.linearised.take().filter(fits).unwrap_or_else(new);
         let lagrangian = &self.lagrangian;
-        let work = Self::work_of(lagrangian, &mut self.work, (state, h), (&self.cache, self.keeps_all));
+        let work = Self::work_of(
+            lagrangian,
+            &mut self.work,
+            (state, h),
+            (&self.cache, self.keeps_all),
+        );
         linearised.carry(lagrangian, (state, h), &work.c, &mut carried);
         self.linearised = Some(linearised);
         if !carried.iter().all(Variation::is_finite) {

@@ -5,8 +5,8 @@ use core::ops::Range;
 use lie::{AlgebraOver, Cayley, DualOver, Jet, LieGroup, Lu, Over, RealGroup, Scalar, VectorSpace};
 
 use super::balance::Balance;
-use crate::numerics::degenerate::without_inertia;
 use super::sparsity::Sparsity;
+use crate::numerics::degenerate::without_inertia;
 use crate::numerics::duals::{add_constant, for_each_chunk, in_duals, lift, seeded, set_columns};
 use crate::numerics::sparse::Sparse;
 use crate::system::{Algebra, DiscreteCache, Dual};
@@ -149,7 +149,12 @@ impl<L: DiscreteLagrangian> Newton<L> {
         (0..mu.dim()).for_each(|i| self.mu.set(i, J::constant(mu.get(i))));
     }
 
-    fn renew_dense(&mut self, lagrangian: &L, (state, h): (&State<L::Group>, f64), dense: &mut Dense) {
+    fn renew_dense(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        dense: &mut Dense,
+    ) {
         if self.inertia.is_none() {
             let [mut inertia, longer] =
                 VANISHING.map(|part| inertia(lagrangian, state, part * h.abs(), &self.cache));
@@ -175,7 +180,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
         L::Group::retract_into::<Cayley>(&self.place, &mut self.f);
         for j in 0..self.rhs.len() {
             self.column[0].read(dense.matrix.column_mut(j));
-            self.to_chart(h);
+            self.move_to_chart(h);
             self.column[2].write(dense.in_chart.column_mut(j));
         }
         self.index = index(&mut dense.in_chart);
@@ -192,7 +197,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
 
     /// Takes what is in the first column, a residual, to $h (\mathrm d\tau_c)^\ast$ of it in the last: in the chart a turn of the body does not
     /// enter.
-    fn to_chart(&mut self, h: f64) {
+    fn move_to_chart(&mut self, h: f64) {
         let Self {
             f,
             column: [end, start, chart],
@@ -223,7 +228,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
                     let slope = this.balance.residual.get(i).partial(direction);
                     this.column[0].set(i, slope);
                 }
-                this.to_chart(h);
+                this.move_to_chart(h);
                 sparsity.expand(first + direction, &this.column[2], matrix);
             }
         });
@@ -267,10 +272,14 @@ impl<L: DiscreteLagrangian> Newton<L> {
                 }
             });
             matrix.factorise();
-            (0..sparsity.rows.len()).map(|i| matrix.pivot(i)).collect::<Vec<_>>()
+            (0..sparsity.rows.len())
+                .map(|i| matrix.pivot(i))
+                .collect::<Vec<_>>()
         });
         let pairs = short.iter().zip(&long);
-        self.degenerate = pairs.clone().position(|(short, long)| has_none(*short, *long));
+        self.degenerate = pairs
+            .clone()
+            .position(|(short, long)| has_none(*short, *long));
         self.inertia = Some(short.iter().filter(|[pivot, _]| *pivot < 0.0).count());
     }
 
@@ -290,7 +299,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
             Some(Factors::Sparse(_, matrix)) => {
                 self.column[0].copy_from(residual);
                 L::Group::retract_into::<Cayley>(&self.place, &mut self.f);
-                self.to_chart(self.h);
+                self.move_to_chart(self.h);
                 self.column[2].write(&mut self.rhs);
                 matrix.solve(&mut self.rhs);
             }

@@ -28,12 +28,7 @@ impl System for Beam {
 }
 
 impl Lagrangian for Beam {
-    fn value<S: Scalar>(
-        &self,
-        at: Context<S>,
-        g: &Power<SE3<S>>,
-        xi: &Power<Tangent<6, S>>,
-    ) -> S {
+    fn value<S: Scalar>(&self, at: Context<S>, g: &Power<SE3<S>>, xi: &Power<Tangent<6, S>>) -> S {
         let [stretch, bend] = at.parameters();
         let kinetic = xi.iter().fold(S::zero(), |sum, xi| {
             let (omega, v) = xi.split();
@@ -74,7 +69,11 @@ pub fn bent(nodes: usize, ring: bool) -> State<Power<SE3>> {
 
 /// How far two states are apart, relative to numbers of the size of one.
 pub fn apart<G: RealGroup>(a: &State<G>, b: &State<G>) -> f64 {
-    let turn = a.g.inverse().compose(&b.g).log().unwrap_or_else(|e| e.representative);
+    let turn =
+        a.g.inverse()
+            .compose(&b.g)
+            .log()
+            .unwrap_or_else(|e| e.representative);
     let mut momentum = a.mu.clone();
     momentum.add_scaled(-1.0, &b.mu);
     turn.max_magnitude().max(momentum.max_magnitude())

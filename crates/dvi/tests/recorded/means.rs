@@ -1,8 +1,9 @@
 //! Which of the two ways an integrator takes, and that it says so.
 
 use dvi::{
-    Cause, Composition, Context, ContinuousSystem, Derivatives, DiscreteLagrangian, DualSystem, Gauss,
-    Integrator, Lagrangian, Means, Quadrature, State, System, TracedError, TracedSystem, Variational,
+    Cause, Composition, Context, ContinuousSystem, Derivatives, DiscreteLagrangian, DualSystem,
+    Gauss, Integrator, Lagrangian, Means, Quadrature, State, System, TracedError, TracedSystem,
+    Variational,
 };
 use lie::{Cotangent, LieGroup, Mat3, Over, Rn, SO3, Scalar, Tangent, Vec3};
 use trace::TraceError;
@@ -61,7 +62,9 @@ fn what_can_be_recorded_is() {
     ] {
         assert_eq!(report.unwrap().means, Means::Recorded);
     }
-    let by_duals = Gauss::new::<3>(DualSystem(Top)).step(&mut top(), 0.01).unwrap();
+    let by_duals = Gauss::new::<3>(DualSystem(Top))
+        .step(&mut top(), 0.01)
+        .unwrap();
     assert_eq!(by_duals.means, Means::DualNumbers { why: None });
 }
 
@@ -108,12 +111,21 @@ fn an_inertia_with_negative_pivots_is_left_to_dual_numbers() {
     let report = Gauss::new::<3>(system).step(&mut state, 0.1).unwrap();
     let why = Some(TracedError::Indefinite { coordinate: 1 });
     assert_eq!(report.means, Means::DualNumbers { why });
-    let by_duals = Gauss::new::<3>(DualSystem(Indefinite)).step(&mut other, 0.1).unwrap();
+    let by_duals = Gauss::new::<3>(DualSystem(Indefinite))
+        .step(&mut other, 0.1)
+        .unwrap();
     assert_eq!((state, report.iterations), (other, by_duals.iterations));
     // The velocity is right without an integrator too.
     let state = still();
-    let state = State { t: 0.0, g: Rn([state.g.0[0], 0.0]), mu: Cotangent([1.0, 1.0]) };
-    assert_eq!(Indefinite.hamiltonian().velocity(&state), Tangent([1.0, -1.0]));
+    let state = State {
+        t: 0.0,
+        g: Rn([state.g.0[0], 0.0]),
+        mu: Cotangent([1.0, 1.0]),
+    };
+    assert_eq!(
+        Indefinite.hamiltonian().velocity(&state),
+        Tangent([1.0, -1.0])
+    );
 }
 
 /// A logarithm has a derivative where it has no value.
@@ -136,17 +148,32 @@ fn outside_the_domain_there_are_no_rates() {
     let mut finite = |x: f64| {
         let at = Context::new(0.0, &[]);
         let (g, mu) = (Rn([x]), Cotangent([1.0]));
-        Logarithm.hamiltonian().velocity_and_force::<f64>(at, &g, &mu, &mut Default::default(), &mut xi, &mut tau);
+        Logarithm.hamiltonian().velocity_and_force::<f64>(
+            at,
+            &g,
+            &mu,
+            &mut Default::default(),
+            &mut xi,
+            &mut tau,
+        );
         xi[0].is_finite() && tau[0].is_finite()
     };
     assert!(finite(0.5));
     assert!(!finite(-0.5));
-    let mut state = State { t: 0.0, g: Rn([0.05]), mu: Cotangent([-4.0]) };
+    let mut state = State {
+        t: 0.0,
+        g: Rn([0.05]),
+        mu: Cotangent([-4.0]),
+    };
     for _ in 0..3 {
         let before = state.clone();
         for error in [
-            Gauss::new::<3>(Logarithm.hamiltonian()).step(&mut state, 0.1).unwrap_err(),
-            Variational::new(Logarithm.discretise(Quadrature::Midpoint)).step(&mut state, 0.1).unwrap_err(),
+            Gauss::new::<3>(Logarithm.hamiltonian())
+                .step(&mut state, 0.1)
+                .unwrap_err(),
+            Variational::new(Logarithm.discretise(Quadrature::Midpoint))
+                .step(&mut state, 0.1)
+                .unwrap_err(),
         ] {
             let refused = matches!(error.cause, Cause::NotFinite | Cause::NotConverged { .. });
             assert!(refused, "{error}");

@@ -1,8 +1,8 @@
 //! Steps by what was recorded are those by dual numbers.
 
 use dvi::{
-    Composition, Context, Derivatives, DiscreteLagrangian, DualSystem, FirstVariation, Gauss, Integrator,
-    Lagrangian, Means, Quadrature, State, System, TracedSystem, Variation, Variational,
+    Composition, Context, Derivatives, DiscreteLagrangian, DualSystem, FirstVariation, Gauss,
+    Integrator, Lagrangian, Means, Quadrature, State, System, TracedSystem, Variation, Variational,
 };
 use lie::{Over, RealGroup, Scalar, VectorSpace};
 
@@ -44,10 +44,13 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for ByJets<L> {
     }
 }
 
+/// A step of an integrator, with the variations carried along.
+type Step<'a, G> = dyn FnMut(&mut State<G>, &mut [Variation<G>]) -> Means + 'a;
+
 /// The largest distance of states and variations after some steps.
 fn far<G: RealGroup>(
-    one: &mut dyn FnMut(&mut State<G>, &mut [Variation<G>]) -> Means,
-    two: &mut dyn FnMut(&mut State<G>, &mut [Variation<G>]) -> Means,
+    one: &mut Step<'_, G>,
+    two: &mut Step<'_, G>,
     start: &State<G>,
     mut columns: Vec<Variation<G>>,
 ) -> f64 {
@@ -157,7 +160,10 @@ fn a_beam_costs_as_much_a_node_however_long_it_is() {
     };
     for ring in [false, true] {
         let [few, some, many] = [20, 40, 80].map(|nodes| costs(nodes, ring));
-        assert!(many.0 - some.0 <= 2 * (some.0 - few.0), "{few:?} {some:?} {many:?}");
+        assert!(
+            many.0 - some.0 <= 2 * (some.0 - few.0),
+            "{few:?} {some:?} {many:?}"
+        );
         // Each renewal of the matrix takes the same few colours.
         assert!(many.1 <= 2 * few.1, "{few:?} {some:?} {many:?}");
     }

@@ -66,7 +66,9 @@ impl<G: RealGroup, T> Cache<G, T> {
         // A formula that panicked has left what was before it.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match &kept.last {
-            Some((shape, of, found)) if *of == whose && shape.same_shape(g) => return found.clone(),
+            Some((shape, of, found)) if *of == whose && shape.same_shape(g) => {
+                return found.clone();
+            }
             _ => kept.count += 1,
         }
         let found = match kept.count > MOST {

@@ -2,14 +2,13 @@
 
 use core::ops::Range;
 
-use lie::{LieGroup, VectorSpace};
+use lie::{RealGroup, VectorSpace};
 use trace::{Binary, Degree, Graph, Id, Node, Program, Unary};
 
+use super::elements;
 use super::error::TracedError;
 use super::inertia::{self, Solution};
 use super::translation::Translations;
-use super::elements;
-use crate::system::lagrangian::Lagrangian;
 
 /// The most operations for the factors of an inertia that are written on a graph: a program ten times as long takes seconds to make.
 const LIMIT: usize = 1_000_000;
@@ -23,9 +22,9 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn of<L: Lagrangian>(lagrangian: &L, g: &L::Group) -> Self {
+    pub(super) fn of<G: RealGroup>(parameters: usize, g: &G) -> Self {
         Self {
-            parameters: lagrangian.parameters().len(),
+            parameters,
             numbers: elements::count(g),
             dim: g.zero_algebra().dim(),
         }

@@ -29,7 +29,9 @@ pub enum TracedError {
         limit: usize,
     },
     /// Another formula, or another shape, was to be recorded again and again.
-    #[error("another formula or shape was recorded {times} times: one that stays the same is worth it alone")]
+    #[error(
+        "another formula or shape was recorded {times} times: one that stays the same is worth it alone"
+    )]
     Changes {
         /// How often.
         times: u32,

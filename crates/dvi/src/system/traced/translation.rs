@@ -83,7 +83,9 @@ fn without_zeros(graph: &mut Graph, all: &[Id]) -> Vec<Id> {
         let start = graph.constant(start.unwrap_or(-0.0));
         let columns: Vec<Id> = pattern.row(i).iter().map(|j| inputs[*j]).collect();
         let slopes = graph.gradient(*y, &columns).into_iter();
-        let terms = slopes.zip(columns).filter(|(slope, _)| !is_zero(graph, *slope));
+        let terms = slopes
+            .zip(columns)
+            .filter(|(slope, _)| !is_zero(graph, *slope));
         let terms: Vec<(Id, Id)> = terms.collect();
         terms
             .into_iter()
