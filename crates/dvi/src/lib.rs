@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | Lagrangian, Legendre transform | $L(g, \xi)$, $\mu = \mathbf D_\xi L$ | [`Lagrangian`] |
 //! | discrete Lagrangian | $L_d(g, f)$ | [`DiscreteLagrangian::value`], or [`Lagrangian::discretise`] by a [`Quadrature`] rule |
-//! | its derivatives | $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$, $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$ | [`DiscreteLagrangian::derivatives`], by dual numbers unless given |
+//! | its derivatives | $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$, $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$ | [`DiscreteLagrangian::derivatives`], of the recorded value unless given |
 //! | Hamilton's equations | $\dot g = g \xi$, $\dot \mu = \mathrm{ad}^\ast_\xi \mu + \tau$ | [`ContinuousSystem`], or [`Lagrangian::hamiltonian`] |
 //! | forces | $f_d^-$, $f_d^+$; $F$ | [`DiscreteForce`], [`Force`], [`Forced`] |
 //!
@@ -42,7 +42,15 @@
 //! # How a step is solved
 //! For [`Gauss`] see there. Of a discrete Lagrangian, the unknown is $c$ with $f_k = \tau(c)$, $\tau$ the Cayley map. The balance of momenta is brought below
 //! a tolerance, starting from an extrapolation of the steps before. The matrix of the iteration is the inertia of a model that
-//! [solves it fast](DiscreteLagrangian::HAS_INERTIA); else Newton's, from dual numbers, is kept until convergence slows.
+//! [solves it fast](DiscreteLagrangian::HAS_INERTIA); else Newton's, from dual numbers, is kept until convergence slows. It is sparse where the
+//! balance is: a chain, a tree or a ring of many bodies whose neighbours are tied steps in proportion to their number.
+//!
+//! # How derivatives come about
+//! A value that is all a user has written is recorded at the first step, by [`trace`], and differentiated in reverse: a gradient costs a few
+//! values. It is recorded again where the configuration has another shape, and not where a [parameter](System::parameters) changes.
+//! What a value reads from elsewhere, and may change, must be such a parameter. A value that looks at a number, to branch on it say, cannot be
+//! recorded: its derivatives come from dual numbers, which cost much more. [`StepReport::means`] tells which of the two it is, and why;
+//! [`TracedSystem::new`] asks for the recording and gives the reason as an error.
 //!
 //! The balance of a long step has many roots, and the motion's is the one that grows from no displacement at $h = 0$. There the balance's
 //! matrix is the inertia; where the motion's root ends it meets another and the matrix is singular, so that beyond, a pivot has another sign. A root with

@@ -1,11 +1,11 @@
 //! The instructions that some nodes of a graph need, one after the other.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::graph::Graph;
 use crate::instruction::{Instruction, Op};
 use crate::node::{Binary, Id, Node, Unary};
-use crate::walk::reachable;
+use crate::walk::as_needed;
 
 /// Instructions over nodes.
 #[derive(Default)]
@@ -13,17 +13,27 @@ pub(crate) struct Lowered {
     pub(crate) instructions: Vec<Instruction>,
     /// The constants of [`Op::Times`].
     pub(crate) factors: Vec<f64>,
-    /// Constants and inputs among the nodes.
-    pub(crate) leaves: Vec<Id>,
+    /// Constants among the nodes.
+    pub(crate) constants: Vec<Id>,
+    /// Angles whose sine and cosine are computed.
+    paired: HashSet<Id>,
 }
 
-/// What computes the outputs and nothing else.
-pub(crate) fn lower(graph: &Graph, outputs: &[Id]) -> Lowered {
-    let nodes = reachable(outputs.iter().copied(), |id| graph.node(id).operands());
+/// What computes the outputs and nothing else; what `first` needs comes first.
+pub(crate) fn lower(graph: &Graph, outputs: &[Id], first: &[Id]) -> Lowered {
+    let nodes = as_needed(graph, first.iter().chain(outputs).copied());
     let pairs = pairs(graph, &nodes);
+    let mut places: HashMap<Id, Vec<u32>> = HashMap::new();
+    for (k, id) in outputs.iter().enumerate() {
+        places.entry(*id).or_default().push(k as u32);
+    }
     let mut lowered = Lowered::default();
     for id in &nodes {
         lowered.push(graph, *id, &pairs);
+        for to in places.get(id).into_iter().flatten() {
+            let (op, to, args) = (Op::Store, *to, [id.0, 0, 0, 0]);
+            lowered.instructions.push(Instruction { op, to, args });
+        }
     }
     lowered
 }
@@ -45,10 +55,11 @@ impl Lowered {
     fn push(&mut self, graph: &Graph, id: Id, pairs: &HashMap<Id, [Id; 2]>) {
         let none = Id(0);
         let (op, args) = match graph.node(id) {
-            Node::Constant(_) | Node::Input(_) => return self.leaves.push(id),
+            Node::Constant(_) => return self.constants.push(id),
+            Node::Input(k) => (Op::Load, [Id(k), none, none, none]),
             Node::Unary(Unary::Neg, x) => (Op::Neg, [x, none, none, none]),
             Node::Unary(Unary::Sin | Unary::Cos, x) if pairs.contains_key(&x) => {
-                return self.push_pair(id, x, pairs[&x]);
+                return self.push_pair(x, pairs[&x]);
             }
             Node::Unary(op, x) => (Op::Unary(op), [x, none, none, none]),
             Node::Binary(Binary::Mul, x, y) => match (graph.as_constant(x), graph.as_constant(y)) {
@@ -70,8 +81,8 @@ impl Lowered {
     }
 
     /// Sine and cosine at once, at the first of the two.
-    fn push_pair(&mut self, id: Id, x: Id, [sin, cos]: [Id; 2]) {
-        if id == sin.min(cos) {
+    fn push_pair(&mut self, x: Id, [sin, cos]: [Id; 2]) {
+        if self.paired.insert(x) {
             let (op, to, args) = (Op::SinCos, sin.0, [x.0, cos.0, 0, 0]);
             self.instructions.push(Instruction { op, to, args });
         }

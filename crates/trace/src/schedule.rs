@@ -44,7 +44,7 @@ impl<'a> Window<'a> {
                 }
             }
             let mut instruction = *instruction;
-            makers.insert(instruction.to, i);
+            makers.extend(instruction.result().map(|result| (*result, i)));
             makers.extend(instruction.second().map(|second| (*second, i)));
             if window.waits[i] == 0 {
                 window.add(i);

@@ -14,11 +14,10 @@ pub(crate) struct Slots {
 }
 
 impl Slots {
-    /// For these instructions, and `kept` numbers that stay to the end.
-    pub(crate) fn new(instructions: &[Instruction], kept: impl Iterator<Item = u32>) -> Self {
+    /// For these instructions.
+    pub(crate) fn new(instructions: &[Instruction]) -> Self {
         let mut reads = HashMap::new();
-        let read = instructions.iter().flat_map(|i| i.reads()).copied();
-        for name in read.chain(kept) {
+        for name in instructions.iter().flat_map(|i| i.reads()).copied() {
             *reads.entry(name).or_default() += 1;
         }
         Self {
@@ -40,7 +39,7 @@ impl Slots {
     }
 
     /// The slot of a number that has one.
-    pub(crate) fn of(&self, name: u32) -> u32 {
+    fn of(&self, name: u32) -> u32 {
         self.of[&name]
     }
 
@@ -58,7 +57,9 @@ impl Slots {
     pub(crate) fn assign(&mut self, instruction: Instruction) -> Instruction {
         let mut placed = instruction.renamed(|x| self.of(x));
         instruction.reads().iter().for_each(|x| self.read(*x));
-        placed.to = self.place(instruction.to);
+        if let Some(result) = placed.result() {
+            *result = self.place(*result);
+        }
         if let Some(second) = placed.second() {
             *second = self.place(*second);
         }

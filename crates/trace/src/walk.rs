@@ -24,6 +24,27 @@ pub(crate) fn reachable<I: Iterator<Item = Id>>(
     found
 }
 
+/// The same, each node just before it is first needed, for the roots one after the other.
+///
+/// So numbers that belong together are computed together, and few are alive at a time.
+pub(crate) fn as_needed(graph: &Graph, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
+    let (mut order, mut found) = (Vec::new(), HashSet::new());
+    let mut open = Vec::new();
+    for root in roots {
+        open.push((root, false));
+        while let Some((id, complete)) = open.pop() {
+            if complete {
+                order.push(id);
+            } else if found.insert(id) {
+                open.push((id, true));
+                let operands: Vec<Id> = graph.node(id).operands().collect();
+                open.extend(operands.into_iter().rev().map(|x| (x, false)));
+            }
+        }
+    }
+    order
+}
+
 impl Graph {
     /// The operands of a number that it depends on: a factor beside the constant zero is none of them.
     ///

@@ -4,12 +4,13 @@ use core::fmt::Debug;
 use core::ops::Range;
 
 use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
+use trace::Traced;
 
 use super::context::{Context, System};
 use super::continuous::Means;
 use super::lifted::{Arguments, Lifted};
 use super::state::{State, Still};
-use super::traced::{DiscreteCache, DiscreteRecording};
+use super::traced::{DiscreteCache, DiscreteProgram, DiscreteRecording, Whose};
 use crate::numerics::duals::{for_each_chunk, read_partials};
 
 /// A discrete Lagrangian $L_d(g_k, f_k)$ with $f_k = g_k^{-1} g_{k+1}$: the action of one step of size $h$.
@@ -292,7 +293,11 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         let Some(recording) = &mut self.recording else {
             return false;
         };
-        let Some(out) = recording.run(lagrangian, arguments) else {
+        let record = |g: &G| {
+            let value = |(at, (g, f), h): Arguments<'_, G, Traced>| lagrangian.value(at, g, f, h);
+            DiscreteProgram::of(g, lagrangian.parameters().len(), value)
+        };
+        let Some(out) = recording.run(Whose::of(lagrangian), record, arguments) else {
             return false;
         };
         let (d_f, d_g) = out.split_at(out.len() / 2);

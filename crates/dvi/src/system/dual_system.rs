@@ -300,7 +300,7 @@ type At<'a, L, S> = (
     &'a DualOver<<L as System>::Group, S>,
 );
 
-/// Where both go.
+/// Where a velocity and a force go.
 type Rates<'a, L, S> = (
     &'a mut AlgebraOver<<L as System>::Group, S>,
     &'a mut DualOver<<L as System>::Group, S>,

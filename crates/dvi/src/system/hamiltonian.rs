@@ -8,46 +8,11 @@ use lie::{AlgebraOver, DualOver, LieGroup, Over, Scalar, VectorSpace};
 use super::context::{Adapter, Context, System};
 use super::continuous::{ContinuousSystem, Means};
 use super::dual_system::{DualSystem, LegendreWorkspace, velocity_and_force as by_duals};
-use super::lagrangian::Lagrangian;
+use super::lagrangian::{HamiltonianSystem, Lagrangian};
 use super::state::State;
 use super::traced::{
-    Cache, Pivot, Programs, TracedError, TracedWorkspace, Whose, read_rates, without_inertia,
+    Pivot, Programs, TracedError, TracedWorkspace, Whose, read_rates, without_inertia,
 };
-
-/// The Hamiltonian system of a Lagrangian, $\mu = \mathbf D_\xi L$.
-///
-/// The value is recorded once for each shape of the configuration, and its derivatives run as a program, as in
-/// [`TracedSystem`](crate::TracedSystem). Where that is not possible, as for a value that branches on a number or is not quadratic in the
-/// velocity, it is the system by dual numbers, [`DualSystem`]. [`means`](ContinuousSystem::means) tells which of the two, and why; so do the
-/// [reports](crate::StepReport::means) of steps.
-///
-/// ```
-/// use dvi::{Context, Lagrangian, State, System};
-/// use lie::{Cotangent, Rn, Scalar, Tangent};
-///
-/// /// A particle of 2 kg in a field of 9.81 N/kg.
-/// struct Falling;
-///
-/// impl System for Falling {
-///     type Group = Rn<1>;
-/// }
-///
-/// impl Lagrangian for Falling {
-///     fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
-///         v[0] * v[0] - x.0[0] * S::from_f64(2.0 * 9.81)
-///     }
-/// }
-///
-/// let state = State { t: 0.0, g: Rn([3.0]), mu: Cotangent([4.0]) };
-/// let system = Falling.hamiltonian();
-/// assert_eq!(system.velocity(&state), Tangent([2.0]));
-/// assert_eq!(system.energy(&state), 4.0 + 3.0 * 2.0 * 9.81);
-/// ```
-#[derive(Clone)]
-pub struct HamiltonianSystem<L: System> {
-    lagrangian: L,
-    recorded: Cache<L::Group, Programs>,
-}
 
 impl<L: System + Debug> Debug for HamiltonianSystem<L> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -58,14 +23,6 @@ impl<L: System + Debug> Debug for HamiltonianSystem<L> {
 }
 
 impl<L: Lagrangian> HamiltonianSystem<L> {
-    /// The system of a Lagrangian; nothing is recorded before it is used.
-    pub fn new(lagrangian: L) -> Self {
-        Self {
-            lagrangian,
-            recorded: Cache::default(),
-        }
-    }
-
     /// The velocity of a state; not a number where there is none.
     pub fn velocity(&self, state: &State<L::Group>) -> <L::Group as LieGroup>::Algebra {
         let State { t, g, mu } = state;

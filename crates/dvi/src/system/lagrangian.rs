@@ -5,10 +5,10 @@ use core::marker::PhantomData;
 use lie::{AlgebraOver, Cayley, Jet, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 
 use super::context::{Context, System};
-use super::hamiltonian::HamiltonianSystem;
 use super::quadrature::Quadrature;
 use super::shape::ShapeError;
 use super::state::{State, Still};
+use super::traced::{Cache, Programs};
 use crate::numerics::duals::{add_constant, for_each_chunk, read_partials};
 
 /// A Lagrangian $L(g, \xi)$ on a left-trivialised tangent bundle, $\dot g = g \xi$.
@@ -140,7 +140,10 @@ pub trait Lagrangian: System {
     where
         Self: Sized,
     {
-        HamiltonianSystem::new(self)
+        HamiltonianSystem {
+            lagrangian: self,
+            recorded: Cache::default(),
+        }
     }
 }
 
@@ -252,4 +255,39 @@ impl<L, R> Discretised<L, R> {
     pub fn system(&self) -> &L {
         &self.system
     }
+}
+
+/// The Hamiltonian system of a Lagrangian, $\mu = \mathbf D_\xi L$.
+///
+/// The value is recorded once for each shape of the configuration, and its derivatives run as a program, as in
+/// [`TracedSystem`](crate::TracedSystem). Where that is not possible, as for a value that branches on a number or is not quadratic in the
+/// velocity, it is the system by dual numbers, [`DualSystem`](crate::DualSystem). [`means`](crate::ContinuousSystem::means) tells which of the two, and why; so do the
+/// [reports](crate::StepReport::means) of steps.
+///
+/// ```
+/// use dvi::{Context, Lagrangian, State, System};
+/// use lie::{Cotangent, Rn, Scalar, Tangent};
+///
+/// /// A particle of 2 kg in a field of 9.81 N/kg.
+/// struct Falling;
+///
+/// impl System for Falling {
+///     type Group = Rn<1>;
+/// }
+///
+/// impl Lagrangian for Falling {
+///     fn value<S: Scalar>(&self, _: Context<S>, x: &Rn<1, S>, v: &Tangent<1, S>) -> S {
+///         v[0] * v[0] - x.0[0] * S::from_f64(2.0 * 9.81)
+///     }
+/// }
+///
+/// let state = State { t: 0.0, g: Rn([3.0]), mu: Cotangent([4.0]) };
+/// let system = Falling.hamiltonian();
+/// assert_eq!(system.velocity(&state), Tangent([2.0]));
+/// assert_eq!(system.energy(&state), 4.0 + 3.0 * 2.0 * 9.81);
+/// ```
+#[derive(Clone)]
+pub struct HamiltonianSystem<L: System> {
+    pub(super) lagrangian: L,
+    pub(super) recorded: Cache<L::Group, Programs>,
 }

@@ -39,7 +39,7 @@ const NORMALIZE_EVERY: u64 = 32;
 /// for the first time.
 ///
 /// The matrix of the iteration is the model's own inertia, where it [has one](DiscreteLagrangian::HAS_INERTIA): a tree of N bodies then steps
-/// in O(N). Else it comes from dual numbers, and is dense.
+/// in O(N). Else it comes from dual numbers; it is sparse where the recorded balance is, and dense elsewhere.
 pub struct Variational<L: DiscreteLagrangian> {
     lagrangian: L,
     tolerance: Option<f64>,

@@ -180,7 +180,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
         L::Group::retract_into::<Cayley>(&self.place, &mut self.f);
         for j in 0..self.rhs.len() {
             self.column[0].read(dense.matrix.column_mut(j));
-            self.bring_into_chart(h);
+            self.move_to_chart(h);
             self.column[2].write(dense.in_chart.column_mut(j));
         }
         self.index = index(&mut dense.in_chart);
@@ -197,7 +197,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
 
     /// Takes what is in the first column, a residual, to $h (\mathrm d\tau_c)^\ast$ of it in the last: in the chart a turn of the body does not
     /// enter.
-    fn bring_into_chart(&mut self, h: f64) {
+    fn move_to_chart(&mut self, h: f64) {
         let Self {
             f,
             column: [end, start, chart],
@@ -228,7 +228,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
                     let slope = this.balance.residual.get(i).partial(direction);
                     this.column[0].set(i, slope);
                 }
-                this.bring_into_chart(h);
+                this.move_to_chart(h);
                 sparsity.expand(first + direction, &this.column[2], matrix);
             }
         });
@@ -299,7 +299,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
             Some(Factors::Sparse(_, matrix)) => {
                 self.column[0].copy_from(residual);
                 L::Group::retract_into::<Cayley>(&self.place, &mut self.f);
-                self.bring_into_chart(self.h);
+                self.move_to_chart(self.h);
                 self.column[2].write(&mut self.rhs);
                 matrix.solve(&mut self.rhs);
             }

@@ -44,13 +44,13 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for ByJets<L> {
     }
 }
 
-/// Takes a step, and tells by what means.
-type Step<'a, G> = &'a mut dyn FnMut(&mut State<G>, &mut [Variation<G>]) -> Means;
+/// A step of an integrator, with the variations carried along.
+type Step<'a, G> = dyn FnMut(&mut State<G>, &mut [Variation<G>]) -> Means + 'a;
 
 /// The largest distance of states and variations after some steps.
 fn far<G: RealGroup>(
-    one: Step<G>,
-    two: Step<G>,
+    one: &mut Step<'_, G>,
+    two: &mut Step<'_, G>,
     start: &State<G>,
     mut columns: Vec<Variation<G>>,
 ) -> f64 {

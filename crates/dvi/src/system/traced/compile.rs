@@ -2,14 +2,13 @@
 
 use core::ops::Range;
 
-use lie::{LieGroup, VectorSpace};
+use lie::{RealGroup, VectorSpace};
 use trace::{Binary, Degree, Graph, Id, Node, Program, Unary};
 
 use super::elements;
 use super::error::TracedError;
 use super::inertia::{self, Solution};
 use super::translation::Translations;
-use crate::system::lagrangian::Lagrangian;
 
 /// The most operations for the factors of an inertia that are written on a graph: a program ten times as long takes seconds to make.
 const LIMIT: usize = 1_000_000;
@@ -23,9 +22,9 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn of<L: Lagrangian>(lagrangian: &L, g: &L::Group) -> Self {
+    pub(super) fn of<G: RealGroup>(parameters: usize, g: &G) -> Self {
         Self {
-            parameters: lagrangian.parameters().len(),
+            parameters,
             numbers: elements::count(g),
             dim: g.zero_algebra().dim(),
         }
@@ -110,10 +109,17 @@ pub(super) fn compile(
         energy = graph.mul_add([*mu, *xi, energy]);
     }
     Ok(Programs {
-        rates: Program::new(&graph, &out),
+        rates: Program::in_order(&graph, &out, &side_by_side(&out)),
         energy: Program::new(&graph, &[energy]),
         inertia: Program::new(&graph, &[pivots, diagonal].concat()),
     })
+}
+
+/// Both halves in step: what is computed for a coordinate of one is near what that of the other needs.
+pub(super) fn side_by_side(out: &[Id]) -> Vec<Id> {
+    let (one, other) = out.split_at(out.len() / 2);
+    let pairs = one.iter().zip(other);
+    pairs.flat_map(|(a, b)| [*a, *b]).collect()
 }
 
 /// Whether there is a logarithm: its derivative is a number where it is none itself.

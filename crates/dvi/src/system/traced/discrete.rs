@@ -3,15 +3,14 @@
 use std::sync::Arc;
 
 use lie::{LieGroup, Over, RealGroup, Scalar};
-use trace::{Program, record};
+use trace::{Program, Traced, record};
 
 use super::cache::{Cache, Whose};
-use super::compile::{has_logarithm, poison};
+use super::compile::{has_logarithm, poison, side_by_side};
 use super::elements;
 use super::error::TracedError;
 use super::translation::Translations;
 use crate::system::context::Context;
-use crate::system::discrete::DiscreteLagrangian;
 use crate::system::lifted::Arguments;
 
 /// The program of $\mathsf T_e^\ast \mathsf L_f \cdot \mathbf D_f L_d$ and $\mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L_d$, by time, parameters,
@@ -20,18 +19,19 @@ use crate::system::lifted::Arguments;
 pub(crate) struct DiscreteProgram(Program);
 
 impl DiscreteProgram {
-    /// That of a discrete Lagrangian, for configurations of the shape of `g`.
-    pub(crate) fn of<L: DiscreteLagrangian + ?Sized>(
-        lagrangian: &L,
-        g: &L::Group,
+    /// That of a value with so many parameters, for configurations of the shape of `g`.
+    pub(crate) fn of<G: RealGroup>(
+        g: &G,
+        parameters: usize,
+        value: impl FnOnce(Arguments<'_, G, Traced>) -> Traced,
     ) -> Result<Self, TracedError> {
-        let (context, numbers) = (1 + lagrangian.parameters().len(), elements::count(g));
+        let (context, numbers) = (1 + parameters, elements::count(g));
         let (end_g, end_f) = (context + numbers, context + 2 * numbers);
         let mut graph = record(end_f + 1, |x| {
             let at = Context::new(x[0], &x[1..context]);
             let element = |n: &[_]| elements::with_numbers(g, n);
             let (g, f) = (element(&x[context..end_g]), element(&x[end_g..end_f]));
-            vec![lagrangian.value(at, &g, &f, x[end_f])]
+            vec![value((at, (&g, &f), x[end_f]))]
         })?;
         let (root, inputs) = (graph.outputs()[0], graph.inputs());
         let (of_g, of_f) = (&inputs[context..end_g], &inputs[end_g..end_f]);
@@ -45,7 +45,7 @@ impl DiscreteProgram {
             poison(&mut graph, root, &mut d_g);
         }
         out.extend(d_g);
-        Ok(Self(Program::new(&graph, &out)))
+        Ok(Self(Program::in_order(&graph, &out, &side_by_side(&out))))
     }
 }
 
@@ -81,20 +81,21 @@ impl<G: RealGroup, S: Scalar> DiscreteRecording<G, S> {
     }
 
     /// $d_f$ and $d_g$, one after the other; none where the value cannot be recorded.
-    pub(crate) fn run<L: DiscreteLagrangian<Group = G> + ?Sized>(
+    ///
+    /// `record` gives the program for a shape.
+    pub(crate) fn run(
         &mut self,
-        lagrangian: &L,
+        whose: Whose,
+        record: impl FnOnce(&G) -> Result<DiscreteProgram, TracedError>,
         (at, (g, f), h): Arguments<'_, G, S>,
     ) -> Option<&[S]> {
-        let whose = Whose::of(lagrangian);
         let fits = |known: &Storage<G, S>| known.whose == whose && known.scratch.same_shape(g);
         self.storage.take_if(|known| !fits(known));
         let cache = &self.cache;
         let storage = self.storage.get_or_insert_with(|| {
             // The shape alone matters.
             let shape = G::convert::<S, f64>(g, |_| 0.0);
-            let record = || DiscreteProgram::of(lagrangian, &shape);
-            Storage::new(whose, cache.find(&shape, whose, record), g)
+            Storage::new(whose, cache.find(&shape, whose, || record(&shape)), g)
         });
         let DiscreteProgram(program) = &**storage.program.as_ref().ok()?;
         let Storage {

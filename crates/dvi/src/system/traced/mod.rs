@@ -17,7 +17,7 @@ use trace::{Program, record};
 pub(crate) use self::cache::{Cache, Whose};
 pub(crate) use self::compile::Programs;
 use self::compile::{Layout, compile};
-pub(crate) use self::discrete::{DiscreteCache, DiscreteRecording};
+pub(crate) use self::discrete::{DiscreteCache, DiscreteProgram, DiscreteRecording};
 pub(crate) use self::elements::{count as count_numbers, with_numbers};
 pub use self::error::TracedError;
 pub use self::storage::TracedWorkspace;
@@ -87,7 +87,7 @@ impl<L: Lagrangian> TracedSystem<L> {
 impl Programs {
     /// Those of a Lagrangian, for configurations of the shape of `g`.
     pub(crate) fn of<L: Lagrangian>(lagrangian: &L, g: &L::Group) -> Result<Self, TracedError> {
-        let layout = Layout::of(lagrangian, g);
+        let layout = Layout::of(lagrangian.parameters().len(), g);
         let recorded = record(layout.len(), |x| {
             let g = elements::with_numbers(g, &x[layout.numbers()]);
             let mut xi = g.zero_algebra();
