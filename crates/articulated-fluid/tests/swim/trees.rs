@@ -6,8 +6,8 @@ use articulated_fluid::motion::Sinusoid;
 use articulated_fluid::{ArticulatedBody, Body, Configuration, Joint, JointKind, Motion};
 use dvi::laws::check_symplecticity;
 use dvi::{
-    Context, ContinuousSystem, Derivatives, DiscreteLagrangian, Gauss, HamiltonianSystem,
-    Integrator, Lagrangian, State, System, Variational,
+    Context, ContinuousSystem, Derivatives, DiscreteLagrangian, DualSystem, Gauss, Integrator,
+    Lagrangian, State, System, Variational,
 };
 use lie::{AlgebraOver, LieGroup, Mat3, SO3, Scalar, Tangent, Vec3, VectorSpace};
 use proptest::prelude::*;
@@ -212,7 +212,7 @@ proptest! {
         // Times the condition of the inertia, up to 1e3.
         assert_close(&velocity.coordinates(), &xi.coordinates(), 1e-10)?;
         let (mut other, mut slow) = (g.zero_algebra(), g.zero_dual());
-        HamiltonianSystem(&by_value).velocity_and_force::<f64>(at, g, mu, &mut Default::default(), &mut other, &mut slow);
+        DualSystem(&by_value).velocity_and_force::<f64>(at, g, mu, &mut Default::default(), &mut other, &mut slow);
         assert_close(&force.coordinates(), &slow.coordinates(), 1e-9)?;
     }
 
