@@ -37,10 +37,8 @@ impl ArticulatedBody {
             displacements.push(b - turned);
             sum += b.dot(mb).times(0.5) - mb.dot(turned) - e.trace_with(node.jd);
             if self.is_coupled {
-                sum += (b - turned).dot(
-                    node.coupling
-                        .apply(step.turn::<Any>(i).skew_vee() * S::from_f64(0.5)),
-                );
+                let own = self.turned_momentum(i, &step.turn::<Any>(i));
+                sum += (b - turned).dot(own);
             }
         }
         sum / h - h * self.potential((step.r, step.now), g)
@@ -151,7 +149,7 @@ impl ArticulatedBody {
         bodies.fold(Vec3::zero(), |sum, (i, (moved, r))| {
             let momentum = self.masses[i].apply(moved[4]);
             sum + r.rotate(match self.couples::<K>() {
-                true => momentum + self.turned_momentum(i, moved),
+                true => momentum + self.turned_momentum(i, &turn(moved)),
                 false => momentum,
             })
         })
@@ -159,10 +157,9 @@ impl ArticulatedBody {
 
     /// $C_i w_i$ with $w = (F - F^T)^\vee / 2$, (S27).
     #[inline(always)]
-    fn turned_momentum<S: Scalar>(&self, i: usize, moved: &Moved<S>) -> Vec3<S> {
-        self.nodes[i]
-            .coupling
-            .apply(turn(moved).skew_vee() * S::from_f64(0.5))
+    fn turned_momentum<S: Scalar>(&self, i: usize, e: &Mat3<S>) -> Vec3<S> {
+        let w = e.skew_vee() * S::from_f64(0.5);
+        self.nodes[i].coupling.apply(w)
     }
 
     /// (29)–(33) from the displacements, to which that of the base is added: momenta, back from the leaves.
@@ -254,7 +251,7 @@ impl ArticulatedBody {
             let (mut mb, mut my) = (self.masses[i].apply(b), self.masses[i].apply(y));
             let mut turned = rotation_momentum(node.jd, &e);
             if self.couples::<K>() {
-                let own = self.turned_momentum(i, &moved[i]);
+                let own = self.turned_momentum(i, &e);
                 (mb, my) = (mb + own, my + own);
                 turned += coupled_rotation(node.coupling, &e, y);
             }

@@ -57,6 +57,10 @@ impl ArticulatedBody {
     /// [`ModelError::Shape`] where the configuration is not one of this model.
     pub fn braking_rate(&self, t: f64, g: &Configuration) -> Result<f64, ModelError> {
         self.check(g)?;
+        let joints = &self.loads.forces.joints;
+        if joints.iter().all(|joint| joint.load.resistance() == 0.0) {
+            return Ok(0.0);
+        }
         let (mut work, mut pose) = (Elimination::default(), Pose::default());
         let (r, pose) = self.pose(t, g, &mut pose);
         let mut is_beyond = |h: f64| {
@@ -64,12 +68,10 @@ impl ArticulatedBody {
             work.factorise::<Damped>(self, r, &pose.c);
             !work.is_definite(self)
         };
-        let doublings = (-60..60).map(|k| f64::from(k).exp2());
-        let mut steps = doublings.skip_while(|h| !is_beyond(*h));
-        let Some(mut far) = steps.next() else {
+        let mut doublings = (-60..60).map(|k| f64::from(k).exp2());
+        let Some(mut far) = doublings.find(|h| is_beyond(*h)) else {
             return Ok(0.0);
         };
-        drop(steps);
         let mut near = 0.5 * far;
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (near + far);

@@ -108,12 +108,12 @@ fn motors_and_dampers_keep_the_momentum_whatever_the_tolerance() {
     }
 }
 
-/// The largest difference of energy and work in a second.
-fn balance(
+/// The largest difference of energy and work in a second, J, and the work.
+pub fn balance(
     scene: &Scene,
     integrator: &mut dyn Integrator<Group = articulated_fluid::Configuration>,
     h: f64,
-) -> f64 {
+) -> [f64; 2] {
     let model = scene.model().expect("a model");
     let mut state = scene.initial_state().expect("a state");
     let (mut drives, mut work, mut worst) = (model.drives(), Evaluation::default(), 0.0_f64);
@@ -126,7 +126,7 @@ fn balance(
         let done: f64 = drives.iter().map(|drive| drive.work).sum();
         worst = worst.max((energy - before - done).abs());
     }
-    worst
+    [worst, drives.iter().map(|drive| drive.work).sum()]
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn energy_and_the_work_of_every_load_balance_with_the_order() {
             let order = integrator.order();
             let [long, short] = [h, 0.5 * h].map(|h| {
                 integrator.reset();
-                balance(&scene, integrator.as_mut(), h)
+                balance(&scene, integrator.as_mut(), h)[0]
             });
             let observed = (long / short).log2();
             println!("order {order}, {h} s: {long:.1e} J, {short:.1e} J, observed {observed:.2}");

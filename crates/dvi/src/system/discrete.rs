@@ -15,8 +15,8 @@ use crate::numerics::duals::{for_each_chunk, read_partials};
 
 /// A discrete Lagrangian $L_d(g_k, f_k)$ with $f_k = g_k^{-1} g_{k+1}$: the action of one step of size $h$.
 ///
-/// Only [`value`](Self::value) is required; write it generic over the scalar and integrators record it once and
-/// differentiate what was recorded, or take dual numbers where it branches on a value. Where speed counts, give [`derivatives`](Self::derivatives) in closed form, and the model's own solve of its
+/// Only [`value`](Self::value) is required. Write it generic over the scalar: integrators record it once and differentiate what was recorded.
+/// Where it branches on a value they take dual numbers. Where speed counts, give [`derivatives`](Self::derivatives) in closed form, and the model's own solve of its
 /// inertia: [`factorise`](Self::factorise) and what follows it.
 ///
 /// ```

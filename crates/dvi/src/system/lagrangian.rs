@@ -260,8 +260,8 @@ impl<L, R> Discretised<L, R> {
 /// The Hamiltonian system of a Lagrangian, $\mu = \mathbf D_\xi L$.
 ///
 /// The value is recorded once for each shape of the configuration, and its derivatives run as a program, as in
-/// [`TracedSystem`](crate::TracedSystem). Where that is not possible, as for a value that branches on a number or is not quadratic in the
-/// velocity, it is the system by dual numbers, [`DualSystem`](crate::DualSystem). [`means`](crate::ContinuousSystem::means) tells which of the two, and why; so do the
+/// [`TracedSystem`](crate::TracedSystem). A value that branches on a number, or is not quadratic in the
+/// velocity, cannot be recorded so. Then it is the system by dual numbers, [`DualSystem`](crate::DualSystem). [`means`](crate::ContinuousSystem::means) tells which of the two, and why; so do the
 /// [reports](crate::StepReport::means) of steps.
 ///
 /// ```

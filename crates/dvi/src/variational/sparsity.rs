@@ -23,8 +23,9 @@ const FEW: usize = 24;
 const GAIN: usize = 4;
 
 impl Sparsity {
-    /// That of the balance of a step in the chart, with the matrix for it; none where a dense matrix serves as well, or where the balance
-    /// cannot be recorded.
+    /// That of the balance of a step in the chart, with the matrix for it.
+    ///
+    /// None where a dense matrix serves as well, or where the balance cannot be recorded.
     pub(super) fn of<L: DiscreteLagrangian>(
         lagrangian: &L,
         (state, h): (&State<L::Group>, f64),
