@@ -124,7 +124,7 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
     };
     for nodes in [5, 20, 80, 320] {
         let clock = Instant::now();
-        let system = TracedSystem::new(Beam, &start(nodes).g)?;
+        let system = TracedSystem::new(&Beam, &start(nodes).g)?;
         let recording = clock.elapsed().as_secs_f64();
         let steps = (4000 / nodes) as u32;
         print(

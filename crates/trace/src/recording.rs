@@ -44,6 +44,8 @@ struct Recording {
     graph: Graph,
     /// The first thing that went wrong.
     error: Option<TraceError>,
+    /// How often a number was asked for its value.
+    looks: u32,
 }
 
 /// Never used twice, on no thread: a number kept after its recording is told from those of later ones.
@@ -68,6 +70,7 @@ impl Session {
                 number,
                 graph: Graph::new(inputs),
                 error: None,
+                looks: 0,
             });
         });
         Self { number, at }
@@ -128,14 +131,17 @@ pub(crate) fn extend(
     (first, None)
 }
 
-/// Refuses the recording of a number, or the innermost one where it has ended.
-pub(crate) fn refuse(handle: Handle, error: TraceError) {
+/// Refuses the recording of a number, or the innermost one where it has ended; tells how often that was done.
+pub(crate) fn refuse(handle: Handle, error: TraceError) -> u32 {
     let refused = with(handle.recording, |r| {
         r.error.get_or_insert(error);
+        r.looks = r.looks.saturating_add(1);
+        r.looks
     });
-    if refused.is_none() {
+    refused.unwrap_or_else(|| {
         refuse_innermost(TraceError::Foreign { at: error.at() });
-    }
+        0
+    })
 }
 
 fn refuse_innermost(error: TraceError) {

@@ -104,12 +104,17 @@ impl Traced {
     }
 
     /// The value of a constant; the recording of any other number is refused.
+    ///
+    /// A number that is asked for its value again and again is then now zero, now infinite: so that a loop which waits for a value ends.
     fn value(self, operation: &'static str, at: &'static Location<'static>) -> Option<f64> {
+        const PATIENCE: u32 = 1000;
         match self.0 {
             Number::Constant(x) => Some(x),
             Number::Recorded(handle) => {
-                recording::refuse(handle, TraceError::Branch { operation, at });
-                None
+                let looks = recording::refuse(handle, TraceError::Branch { operation, at });
+                // Bits without a period that a loop could be in step with.
+                let any = looks.wrapping_mul(0x9e37_79b9) >> 31 == 0;
+                (looks > PATIENCE).then_some(if any { 0.0 } else { f64::INFINITY })
             }
         }
     }

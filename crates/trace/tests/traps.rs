@@ -38,6 +38,48 @@ fn branches_on_values_are_refused_and_not_frozen() {
 }
 
 #[test]
+fn a_loop_that_waits_for_a_value_ends() {
+    let loops: [&dyn Fn(Traced) -> Traced; 5] = [
+        &|mut x| {
+            loop {
+                x = x.times(0.5);
+                if x.magnitude() < 1e-9 {
+                    return x;
+                }
+            }
+        },
+        &|mut x| {
+            while !(x.magnitude() > 1e9) {
+                x = x.times(2.0);
+            }
+            x
+        },
+        &|mut x| {
+            while !x.is_zero() {
+                x = x - Traced::from_f64(1.0);
+            }
+            x
+        },
+        &|mut x| {
+            let mut last = x.times(0.5);
+            while x != last {
+                (last, x) = (x, x.sqrt());
+            }
+            x
+        },
+        &|mut x| {
+            while x.magnitude() > 1.0 || !(x.magnitude() < 0.5) {
+                x = x.times(0.5);
+            }
+            x
+        },
+    ];
+    for formula in loops {
+        assert!(matches!(refused(formula), TraceError::Branch { .. }));
+    }
+}
+
+#[test]
 fn the_place_of_a_branch_is_told() {
     let error = refused(|x| if x.magnitude() > 1.0 { x } else { -x });
     assert!(error.at().file().ends_with("traps.rs"));

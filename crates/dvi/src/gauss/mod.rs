@@ -39,7 +39,7 @@ use work::Limits;
 /// base point moves with the state, and its derivative is part of the balance.
 ///
 /// The stages of a sweep are evaluated side by side, in the widest SIMD [lanes](lie::lanes) that the processor has, where the system
-/// [allows it](ContinuousSystem::INLINE). The integrator owns its system, which borrows nothing: clone it, or share it.
+/// [allows it](ContinuousSystem::INLINE) or is [recorded](ContinuousSystem::recorded). The integrator owns its system, which borrows nothing: clone it, or share it.
 ///
 /// The stages are iterated to rounding, unless a [tolerance](Self::with_tolerance) is set: all of them in one sweep, starting from the velocities and forces of
 /// the step before. A step too long for that is solved by Newton's method. Momenta are summed in the frame of the
@@ -169,12 +169,10 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
             _ => match degenerate() {
                 Some(coordinate) => return Err(Cause::Degenerate { coordinate }),
                 None => {
-                    self.means = system.means(state.t, &state.g);
-                    let instructions = match self.means {
-                        Means::DualNumbers { .. } => InstructionSet::Baseline,
-                        _ => self.instructions,
-                    };
-                    (self.make)(instructions, tableau, &state.g)
+                    let start = (state.t, &state.g);
+                    let (work, means) = (self.make)(self.instructions, tableau, system, start);
+                    self.means = means;
+                    work
                 }
             },
         };

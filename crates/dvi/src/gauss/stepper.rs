@@ -3,14 +3,14 @@
 use core::marker::PhantomData;
 
 use lie::lanes::{InstructionSet, Job, run};
-use lie::{Batch, LieGroup, Retraction, VectorSpace};
+use lie::{Batch, LieGroup, RealGroup, Retraction, VectorSpace};
 
 use super::newton::SweepNewton;
 use super::sweep::End;
 use super::tableau::Tableau;
 use super::work::{Limits, Method, Start, Work};
 use crate::system::Dual;
-use crate::{Cause, ContinuousSystem, State, StepReport, System, Variation};
+use crate::{Cause, ContinuousSystem, Means, State, StepReport, System, TracedSystem, Variation};
 
 /// The steps of a method, over a scalar that was chosen at run time.
 pub(super) trait Stepper<C: ContinuousSystem>: Send + Sync {
@@ -118,31 +118,100 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
     }
 }
 
+/// The steps of a system's recording.
+struct OnRecording<G: RealGroup> {
+    recorded: TracedSystem<G>,
+    steps: Box<dyn Stepper<TracedSystem<G>>>,
+}
+
+impl<C: ContinuousSystem> Stepper<C> for OnRecording<C::Group> {
+    fn fits(&self, g: &C::Group) -> bool {
+        self.steps.fits(g)
+    }
+
+    fn shape(&self) -> &Dual<C> {
+        self.steps.shape()
+    }
+
+    fn solve(
+        &mut self,
+        (_, tableau): Method<C>,
+        start: Start<C>,
+        limits: Limits,
+    ) -> Result<StepReport, Cause> {
+        self.steps.solve((&self.recorded, tableau), start, limits)
+    }
+
+    fn ahead(&self, start: Start<C>) -> State<C::Group> {
+        self.steps.ahead(start)
+    }
+
+    fn stage(&self, i: usize, out: &mut State<C::Group>) {
+        self.steps.stage(i, out);
+    }
+
+    fn carry(
+        &mut self,
+        (_, tableau): Method<C>,
+        start: Start<C>,
+        variations: &mut [Variation<C::Group>],
+    ) {
+        let method = (&self.recorded, tableau);
+        self.steps.carry(method, start, variations);
+    }
+
+    fn accept(&mut self, _: &C, state: &mut State<C::Group>, h: f64) -> Option<()> {
+        self.steps.accept(&self.recorded, state, h)
+    }
+}
+
 /// What [`stepper`] is in the chart of some retraction.
 pub(super) type MakeStepper<C> =
-    fn(InstructionSet, &Tableau, &<C as System>::Group) -> Box<dyn Stepper<C>>;
+    fn(InstructionSet, &Tableau, &C, Moment<C>) -> (Box<dyn Stepper<C>>, Means);
 
-/// Storage for the steps from states of the shape of `g`, computed by these instructions.
+/// When and where.
+type Moment<'a, C> = (f64, &'a <C as System>::Group);
+
+/// The steps of a system from configurations of the shape of `g`, computed by these instructions; and how its rates come about.
 pub(super) fn stepper<C: ContinuousSystem + 'static, R: Retraction>(
     instructions: InstructionSet,
     tableau: &Tableau,
-    g: &C::Group,
-) -> Box<dyn Stepper<C>> {
-    let new = New::<C, R> {
-        tableau,
-        g,
-        retraction: PhantomData,
+    system: &C,
+    (t, g): Moment<C>,
+) -> (Box<dyn Stepper<C>>, Means) {
+    let means = match C::IS_RECORDED {
+        true => match system.recorded(t, g) {
+            Ok(recorded) => {
+                let steps = New::<TracedSystem<C::Group>, R>::new(tableau, g);
+                let steps = run(instructions, steps);
+                return (Box::new(OnRecording { recorded, steps }), Means::Recorded);
+            }
+            Err(means) => means,
+        },
+        false => system.means(t, g),
     };
-    match C::INLINE {
+    let new = New::<C, R>::new(tableau, g);
+    let steps = match C::INLINE {
         true => run(instructions, new),
         false => new.run::<f64>(),
-    }
+    };
+    (steps, means)
 }
 
 struct New<'a, C: ContinuousSystem, R> {
     tableau: &'a Tableau,
     g: &'a C::Group,
     retraction: PhantomData<R>,
+}
+
+impl<'a, C: ContinuousSystem, R> New<'a, C, R> {
+    fn new(tableau: &'a Tableau, g: &'a C::Group) -> Self {
+        Self {
+            tableau,
+            g,
+            retraction: PhantomData,
+        }
+    }
 }
 
 impl<C: ContinuousSystem + 'static, R: Retraction> Job for New<'_, C, R> {

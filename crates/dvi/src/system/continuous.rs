@@ -3,7 +3,7 @@
 use lie::{AlgebraOver, DualOver, Over, Scalar};
 
 use super::context::{Context, System};
-use super::traced::TracedError;
+use super::traced::{TracedError, TracedSystem};
 
 /// How the derivatives of a system come about.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,6 +46,9 @@ pub trait ContinuousSystem: System {
     /// more than they save.
     const INLINE: bool = false;
 
+    /// Whether there may be a [recording](Self::recorded).
+    const IS_RECORDED: bool = false;
+
     /// At the time of the context: the velocity $\xi$ with $\mu = \mathbf D_\xi L(g, \xi)$, and the force $\tau = \mathsf T_e^\ast \mathsf L_g \cdot \mathbf D_g L(g, \xi)$.
     ///
     /// Writes every coordinate of `xi` and `tau`; where there is no velocity, they are not finite.
@@ -73,15 +76,26 @@ pub trait ContinuousSystem: System {
 
     /// How velocity and force come about, for steps from `g` at the time `t`.
     ///
-    /// Integrators ask for it before their first step, and run in lanes unless it is by dual numbers.
+    /// Integrators tell it in their [reports](crate::StepReport::means).
     fn means(&self, _t: f64, _g: &Self::Group) -> Means {
         Means::Formulas
+    }
+
+    /// The same system as a program, for steps from `g` at the time `t`; or what it is evaluated by, where it is not recorded.
+    ///
+    /// Integrators ask for it before their first step where [`IS_RECORDED`](Self::IS_RECORDED), and step what they get. It runs in lanes.
+    ///
+    /// # Errors
+    /// How the rates come about where there is no recording.
+    fn recorded(&self, t: f64, g: &Self::Group) -> Result<TracedSystem<Self::Group>, Means> {
+        Err(self.means(t, g))
     }
 }
 
 impl<C: ContinuousSystem> ContinuousSystem for &C {
     type Workspace<S: Scalar> = C::Workspace<S>;
     const INLINE: bool = C::INLINE;
+    const IS_RECORDED: bool = C::IS_RECORDED;
 
     #[inline(always)]
     fn velocity_and_force<S: Scalar>(
@@ -103,5 +117,8 @@ impl<C: ContinuousSystem> ContinuousSystem for &C {
     }
     fn means(&self, t: f64, g: &C::Group) -> Means {
         C::means(self, t, g)
+    }
+    fn recorded(&self, t: f64, g: &C::Group) -> Result<TracedSystem<C::Group>, Means> {
+        C::recorded(self, t, g)
     }
 }

@@ -10,7 +10,7 @@ use super::context::{Context, System};
 use super::continuous::Means;
 use super::lifted::{Arguments, Lifted};
 use super::state::{State, Still};
-use super::traced::{DiscreteCache, DiscreteProgram, DiscreteRecording, Whose};
+use super::traced::{DiscreteCache, DiscreteProgram, DiscreteRecording, Home, TracedError};
 use crate::numerics::duals::{for_each_chunk, read_partials};
 
 /// A discrete Lagrangian $L_d(g_k, f_k)$ with $f_k = g_k^{-1} g_{k+1}$: the action of one step of size $h$.
@@ -181,7 +181,9 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for &L {
         work: &mut L::Workspace<S>,
         out: &mut Derivatives<L::Group, S>,
     ) {
+        let home = out.follow(self);
         L::derivatives(self, at, g, f, h, work, out);
+        out.home = home;
     }
     fn is_defined(&self, t: f64, g: &L::Group, still: &Still<L::Group>) -> bool {
         L::is_defined(self, t, g, still)
@@ -225,7 +227,9 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for &L {
         c: &mut AlgebraOver<L::Group, f64>,
         out: &mut Derivatives<L::Group, f64>,
     ) {
+        let home = out.follow(self);
         L::eliminate(self, work, start, f, c, out);
+        out.home = home;
     }
 }
 
@@ -237,6 +241,10 @@ pub struct Derivatives<G: RealGroup, S: Scalar> {
     pub d_g: DualOver<G, S>,
     lifted: Option<Lifted<G, S>>,
     recording: Option<DiscreteRecording<G, S>>,
+    /// Where the formulas are that may be recorded.
+    home: Home,
+    /// Why the last was not.
+    refused: Option<TracedError>,
     /// How they came about last.
     pub(crate) means: Means,
 }
@@ -258,6 +266,8 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
             d_g: g.zero_dual(),
             lifted: None,
             recording: None,
+            home: Home::default(),
+            refused: None,
             means: Means::Formulas,
         }
     }
@@ -268,6 +278,21 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
             recording: Some(DiscreteRecording::new(cache)),
             ..Self::new(g)
         }
+    }
+
+    /// Lets the formulas in the memory of a system be recorded, which has to stay as it is.
+    pub(crate) fn settle<L: ?Sized>(&mut self, system: &L) {
+        self.home = Home::of(system);
+    }
+
+    /// Lets those be recorded that a part of the system refers to; gives back where they were to be before.
+    fn follow<L>(&mut self, reference: &&L) -> Home {
+        let stays = self.home.part(reference).is_some();
+        let there = match stays {
+            true => Home::behind(*reference),
+            false => Home::default(),
+        };
+        core::mem::replace(&mut self.home, there)
     }
 
     /// Fills both from the value alone: in an integrator by a program, where the value can be recorded, and by dual numbers elsewhere.
@@ -290,6 +315,7 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         lagrangian: &L,
         arguments: Arguments<'_, G, S>,
     ) -> bool {
+        self.refused = None;
         let Some(recording) = &mut self.recording else {
             return false;
         };
@@ -297,8 +323,14 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
             let value = |(at, (g, f), h): Arguments<'_, G, Traced>| lagrangian.value(at, g, f, h);
             DiscreteProgram::of(g, lagrangian.parameters().len(), value)
         };
-        let Some(out) = recording.run(Whose::of(lagrangian), record, arguments) else {
-            return false;
+        let part = self.home.part(lagrangian);
+        let found = part.ok_or(TracedError::Elsewhere);
+        let out = match found.and_then(|part| recording.run(part, record, arguments)) {
+            Ok(out) => out,
+            Err(why) => {
+                self.refused = Some(why);
+                return false;
+            }
         };
         let (d_f, d_g) = out.split_at(out.len() / 2);
         self.d_f.read(d_f);
@@ -328,8 +360,7 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         arguments: Arguments<'_, G, S>,
         mut value: impl FnMut(Arguments<'_, G, S::Jet>) -> S::Jet,
     ) {
-        let recording = self.recording.as_ref();
-        let why = recording.and_then(DiscreteRecording::refusal);
+        let why = self.refused.take();
         self.means = Means::DualNumbers { why };
         let Self {
             d_f, d_g, lifted, ..

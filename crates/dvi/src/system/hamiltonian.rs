@@ -11,7 +11,7 @@ use super::dual_system::{DualSystem, LegendreWorkspace, velocity_and_force as by
 use super::lagrangian::{HamiltonianSystem, Lagrangian};
 use super::state::State;
 use super::traced::{
-    Pivot, Programs, TracedError, TracedWorkspace, Whose, read_rates, without_inertia,
+    Pivot, TracedError, TracedSystem, TracedWorkspace, read_rates, without_inertia,
 };
 
 impl<L: System + Debug> Debug for HamiltonianSystem<L> {
@@ -27,7 +27,8 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
     pub fn velocity(&self, state: &State<L::Group>) -> <L::Group as LieGroup>::Algebra {
         let State { t, g, mu } = state;
         let at = Context::new(*t, self.lagrangian.parameters());
-        let found = self.programs(g).ok().and_then(|p| p.rates(at, g, mu));
+        let traced = self.traced(g).ok();
+        let found = traced.and_then(|s| s.programs().rates(at, g, mu));
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
         read_rates(found.as_deref(), &mut xi, &mut tau);
         if xi.max_magnitude().is_finite() {
@@ -40,7 +41,8 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
     pub fn energy(&self, state: &State<L::Group>) -> f64 {
         let State { t, g, mu } = state;
         let at = Context::new(*t, self.lagrangian.parameters());
-        let found = self.programs(g).ok().and_then(|p| p.energy(at, g, mu));
+        let traced = self.traced(g).ok();
+        let found = traced.and_then(|s| s.programs().energy(at, g, mu));
         let finite = found.filter(|energy| energy.is_finite());
         finite.unwrap_or_else(|| self.by_duals().energy(state))
     }
@@ -50,9 +52,9 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
     }
 
     /// What is recorded for the shape of `g`.
-    fn programs(&self, g: &L::Group) -> Result<Arc<Programs>, TracedError> {
-        self.recorded
-            .find(g, Whose::THE_ONLY, || Programs::of(&self.lagrangian, g))
+    fn traced(&self, g: &L::Group) -> Result<Arc<TracedSystem<L::Group>>, TracedError> {
+        let record = || TracedSystem::new(&self.lagrangian, g);
+        self.recorded.find(g, (), record)
     }
 }
 
@@ -81,9 +83,8 @@ impl<L: Lagrangian> Adapter for HamiltonianSystem<L> {
 
 impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     type Workspace<S: Scalar> = HamiltonianWorkspace<L, S>;
-    const INLINE: bool = true;
+    const IS_RECORDED: bool = true;
 
-    #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,
         at: Context<S>,
@@ -95,11 +96,9 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     ) {
         // The shape alone matters.
         let shape = || L::Group::convert::<S, f64>(g, |_| 0.0);
-        let find = || self.programs(&shape()).ok();
+        let find = || Some(self.traced(&shape()).ok()?.programs().clone());
         let found = work.recorded.run(find, at, g, mu);
-        let is_finite = |out: &&[S]| out.iter().all(|x| x.magnitude().is_finite());
-        // Steps run in lanes by what is recorded alone.
-        if !S::IS_SINGLE || found.as_ref().is_some_and(is_finite) {
+        if found.is_some_and(|out| out.iter().all(|x| x.magnitude().is_finite())) {
             return read_rates(found, xi, tau);
         }
         let work = &mut work.by_duals;
@@ -111,24 +110,30 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     }
 
     fn without_inertia(&self, t: f64, g: &L::Group) -> Option<usize> {
-        match self.programs(g) {
-            Ok(programs) => without_inertia(&self.lagrangian, &programs, (t, g)),
+        match self.traced(g) {
+            Ok(traced) => without_inertia(&self.lagrangian, traced.programs(), (t, g)),
             Err(_) => self.by_duals().without_inertia(t, g),
         }
     }
 
-    /// By dual numbers also where a pivot of the inertia at `g` is negative; and from then on, for this shape.
     fn means(&self, t: f64, g: &L::Group) -> Means {
+        self.recorded(t, g).err().unwrap_or(Means::Recorded)
+    }
+
+    /// None also where a pivot of the inertia at `g` is negative; and from then on, for this shape.
+    fn recorded(&self, t: f64, g: &L::Group) -> Result<TracedSystem<L::Group>, Means> {
         let at = Context::new(t, self.lagrangian.parameters());
-        let why = match self.programs(g).map(|programs| programs.pivot(at, g)) {
-            Ok(Some((coordinate, Pivot::Negative))) => {
-                let why = TracedError::Indefinite { coordinate };
-                self.recorded.refuse(g, Whose::THE_ONLY, why);
-                why
-            }
-            Ok(_) => return Means::Recorded,
+        let why = match self.traced(g) {
+            Ok(traced) => match traced.programs().pivot(at, g) {
+                Some((coordinate, Pivot::Negative)) => {
+                    let why = TracedError::Indefinite { coordinate };
+                    self.recorded.refuse(g, (), why);
+                    why
+                }
+                _ => return Ok(TracedSystem::clone(&traced)),
+            },
             Err(why) => why,
         };
-        Means::DualNumbers { why: Some(why) }
+        Err(Means::DualNumbers { why: Some(why) })
     }
 }

@@ -21,4 +21,12 @@ pub enum ShapeError {
         /// Coordinates of the velocity.
         found: usize,
     },
+    /// There are more or fewer parameters than the system has.
+    #[error("the system has {expected} parameters, and {found} were given")]
+    Parameters {
+        /// Those of the system.
+        expected: usize,
+        /// Those given.
+        found: usize,
+    },
 }

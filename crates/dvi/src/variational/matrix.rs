@@ -100,6 +100,7 @@ impl<L: DiscreteLagrangian> Matrix<L> {
         (f, c): (&mut L::Group, &mut Algebra<L>),
         out: &mut Derivatives<L::Group, f64>,
     ) {
+        out.settle(lagrangian);
         if self.eliminates(lagrangian) {
             lagrangian.eliminate(work, (state, h), f, c, out);
         } else {

@@ -262,6 +262,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
                 balance.retract(&this.c);
                 let at = Context::new(J::constant(state.t), &balance.parameters);
                 let (work, out) = (&mut balance.workspace, &mut balance.derivatives);
+                out.settle(lagrangian);
                 lagrangian.derivatives(at, &this.g, &balance.f, J::constant(h), work, out);
                 for direction in 0..lie::JET_DIRECTIONS.min(sparsity.count - first) {
                     for i in 0..this.rhs.len() {
@@ -397,6 +398,7 @@ fn inertia<L: DiscreteLagrangian>(
     let g = state.g.lift::<J>();
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
     let mut derivatives = Derivatives::with_cache(&g, cache.clone());
+    derivatives.settle(lagrangian);
     let mut work = Default::default();
     let mut parameters = Vec::new();
     lift(lagrangian.parameters(), J::constant, &mut parameters);

@@ -537,6 +537,7 @@ fn weights<L: DiscreteLagrangian>(
     const SMALL: f64 = 1e-9;
     let (mut c, mut f) = (g.zero_algebra(), g.clone());
     let mut derivatives = Derivatives::with_cache(g, cache);
+    derivatives.settle(lagrangian);
     let mut work = Default::default();
     let at = Context::new(t, lagrangian.parameters());
     let mut momenta = |displacement: f64, i: usize| {

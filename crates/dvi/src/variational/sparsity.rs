@@ -76,6 +76,7 @@ fn by_duals<L: DiscreteLagrangian>(
     cache: &DiscreteCache<L::Group>,
 ) -> bool {
     let mut derivatives = Derivatives::with_cache(&state.g, cache.clone());
+    derivatives.settle(lagrangian);
     let (at, still) = (
         crate::Context::new(state.t, lagrangian.parameters()),
         state.g.identity_like(),

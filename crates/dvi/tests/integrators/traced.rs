@@ -55,7 +55,7 @@ fn apart<L: Lagrangian + Copy, S: Scalar>(
     state: &State<L::Group>,
     mu_of: impl Fn(usize, f64) -> S,
 ) -> f64 {
-    let traced = TracedSystem::new(lagrangian, &state.g).unwrap();
+    let traced = TracedSystem::new(&lagrangian, &state.g).unwrap();
     let by_duals = lagrangian.hamiltonian();
     let g = state.g.lift::<S>();
     let mut mu = g.zero_dual();
@@ -94,7 +94,7 @@ fn velocity_and_force_are_those_by_dual_numbers() {
 
 #[test]
 fn steps_are_those_by_dual_numbers() {
-    let traced = TracedSystem::new(Top, &top().g).unwrap();
+    let traced = TracedSystem::new(&Top, &top().g).unwrap();
     let (mut one, mut two) = (top(), top());
     let (mut fast, mut slow) = (Gauss::new::<4>(traced), Gauss::new::<4>(Top.hamiltonian()));
     for _ in 0..50 {
@@ -131,7 +131,7 @@ fn another_size_gives_no_numbers() {
         .unwrap()
     };
     agrees(Tops, &state(2));
-    let system = TracedSystem::new(Tops, &state(2).g).unwrap();
+    let system = TracedSystem::new(&Tops, &state(2).g).unwrap();
     let mut work = Default::default();
     let mut finite = |n: usize| {
         let State { t, g, mu } = state(n);
@@ -151,9 +151,9 @@ fn another_size_gives_no_numbers() {
 
 #[test]
 fn what_is_not_quadratic_is_refused() {
-    let refused = TracedSystem::new(Relativistic, &Rn([0.0])).err();
+    let refused = TracedSystem::new(&Relativistic, &Rn([0.0])).err();
     assert_eq!(refused, Some(TracedError::NotQuadratic { coordinate: 0 }));
-    let refused = TracedSystem::new(Driven, &driven().g).err();
+    let refused = TracedSystem::new(&Driven, &driven().g).err();
     assert_eq!(refused, Some(TracedError::NotQuadratic { coordinate: 0 }));
 }
 
@@ -173,7 +173,7 @@ impl Lagrangian for Indefinite {
 
 #[test]
 fn where_the_inertia_is_not_positive_there_is_no_velocity() {
-    let system = TracedSystem::new(Indefinite, &Rn([1.0, 0.0])).unwrap();
+    let system = TracedSystem::new(&Indefinite, &Rn([1.0, 0.0])).unwrap();
     let velocity = |x: f64| {
         let (mut xi, mut tau) = (Tangent([0.0; 2]), lie::Cotangent([0.0; 2]));
         let (g, mu) = (Rn([x, 0.0]), lie::Cotangent([1.0, 2.0]));

@@ -81,7 +81,7 @@ fn a_branch_on_a_value_is_left_to_dual_numbers_and_told() {
         let told = Means::DualNumbers { why: Some(why) }.to_string();
         assert!(told.contains("means.rs"), "{told}");
     }
-    let refused = TracedSystem::new(Branching, &still().g).err();
+    let refused = TracedSystem::new(&Branching, &still().g).err();
     assert!(matches!(refused, Some(TracedError::Trace(_))));
 }
 
@@ -185,7 +185,7 @@ fn outside_the_domain_there_are_no_rates() {
 
 /// A free body of some size.
 #[derive(Clone, Copy)]
-struct Body(f64);
+pub struct Body(pub f64);
 
 impl System for Body {
     type Group = SO3;

@@ -153,7 +153,7 @@ fn of_longer_beams_and_rings_with_a_sparse_matrix() {
 fn a_beam_costs_as_much_a_node_however_long_it_is() {
     let costs = |nodes: usize, ring: bool| {
         let (mut state, beam) = (bent(nodes, ring), Beam { ring, ..BEAM });
-        let system = TracedSystem::new(beam.clone(), &state.g).unwrap();
+        let system = TracedSystem::new(&beam, &state.g).unwrap();
         let mut integrator = Variational::new(beam.discretise(Quadrature::Midpoint));
         let report = integrator.step(&mut state, 1e-4).unwrap();
         (system.program().instructions(), report.evaluations)

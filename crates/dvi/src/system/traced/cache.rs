@@ -9,43 +9,25 @@ use super::error::TracedError;
 /// How often another formula is recorded before none is any more.
 const MOST: u32 = 64;
 
-/// What was recorded of a system last, or why it was not; clones share it.
+/// What was recorded last, or why it was not; of a formula that the key `K` tells from others. Clones share it.
 #[derive(Debug)]
-pub(crate) struct Cache<G, T>(Arc<Mutex<Kept<G, T>>>);
+pub(crate) struct Cache<G, K, T>(Arc<Mutex<Kept<G, K, T>>>);
 
 type Found<T> = Result<Arc<T>, TracedError>;
 
 #[derive(Debug)]
-struct Kept<G, T> {
-    last: Option<(G, Whose, Found<T>)>,
+struct Kept<G, K, T> {
+    last: Option<(G, K, Found<T>)>,
     count: u32,
 }
 
-/// Which formula was recorded: its type, and where in memory what it reads is.
-///
-/// A formula that is moved is recorded again. So none is ever taken for another that is told apart by its contents.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Whose(&'static str, usize);
-
-impl Whose {
-    /// For a cache that is asked about one formula alone.
-    pub(crate) const THE_ONLY: Self = Self("", 0);
-
-    pub(crate) fn of<L: ?Sized>(formula: &L) -> Self {
-        Self(
-            core::any::type_name::<L>(),
-            core::ptr::from_ref(formula).addr(),
-        )
-    }
-}
-
-impl<G, T> Clone for Cache<G, T> {
+impl<G, K, T> Clone for Cache<G, K, T> {
     fn clone(&self) -> Self {
         Self(Arc::clone(&self.0))
     }
 }
 
-impl<G, T> Default for Cache<G, T> {
+impl<G, K, T> Default for Cache<G, K, T> {
     fn default() -> Self {
         let kept = Kept {
             last: None,
@@ -55,33 +37,31 @@ impl<G, T> Default for Cache<G, T> {
     }
 }
 
-impl<G: RealGroup, T> Cache<G, T> {
+impl<G: RealGroup, K: Copy + PartialEq, T> Cache<G, K, T> {
     /// What is recorded of a formula for the shape of `g`; `record` is called where another was.
     pub(crate) fn find(
         &self,
         g: &G,
-        whose: Whose,
+        key: K,
         record: impl FnOnce() -> Result<T, TracedError>,
     ) -> Found<T> {
         // A formula that panicked has left what was before it.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match &kept.last {
-            Some((shape, of, found)) if *of == whose && shape.same_shape(g) => {
-                return found.clone();
-            }
+            Some((shape, of, found)) if *of == key && shape.same_shape(g) => return found.clone(),
             _ => kept.count += 1,
         }
         let found = match kept.count > MOST {
             true => Err(TracedError::Changes { times: MOST }),
             false => record().map(Arc::new),
         };
-        kept.last = Some((g.clone(), whose, found.clone()));
+        kept.last = Some((g.clone(), key, found.clone()));
         found
     }
 
     /// Takes nothing for recorded from now on, of a formula for the shape of `g`.
-    pub(crate) fn refuse(&self, g: &G, whose: Whose, why: TracedError) {
+    pub(crate) fn refuse(&self, g: &G, key: K, why: TracedError) {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.last = Some((g.clone(), whose, Err(why)));
+        kept.last = Some((g.clone(), key, Err(why)));
     }
 }

@@ -52,12 +52,15 @@ impl Layout {
 /// The programs of a Lagrangian that is quadratic in the velocity; each takes time, parameters, numbers and momentum.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Programs {
-    /// The velocity and the force.
+    /// The velocity and the force, and the same as a graph.
     pub(crate) rates: Program,
+    pub(crate) flow: Graph,
     /// The energy.
     pub(crate) energy: Program,
     /// The pivots of the inertia, and its diagonal.
     pub(crate) inertia: Program,
+    /// The value at rest.
+    pub(crate) at_rest: Program,
 }
 
 /// The programs from the graph of the value by the velocity.
@@ -104,15 +107,26 @@ pub(super) fn compile(
     if has_logarithm(&value) {
         poison(&mut graph, value_there, &mut out);
     }
+    let at_rest = graph.call(&value, &rest, &[root]);
     let mut energy = graph.unary(Unary::Neg, value_there);
     for (mu, xi) in mu.iter().zip(&xi) {
         energy = graph.mul_add([*mu, *xi, energy]);
     }
+    let [energy, inertia, at_rest] =
+        [vec![energy], [pivots, diagonal].concat(), at_rest].map(|out| Program::new(&graph, &out));
+    graph.set_outputs(&out);
     Ok(Programs {
-        rates: Program::in_order(&graph, &out, &side_by_side(&out)),
-        energy: Program::new(&graph, &[energy]),
-        inertia: Program::new(&graph, &[pivots, diagonal].concat()),
+        rates: rates(&graph),
+        flow: graph,
+        energy,
+        inertia,
+        at_rest,
     })
+}
+
+/// The program of the velocity and the force, which are the outputs of a graph.
+pub(super) fn rates(flow: &Graph) -> Program {
+    Program::in_order(flow, flow.outputs(), &side_by_side(flow.outputs()))
 }
 
 /// Both halves in step: what is computed for a coordinate of one is near what that of the other needs.

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use lie::{LieGroup, Over, RealGroup, Scalar};
 use trace::{Program, Traced, record};
 
-use super::cache::{Cache, Whose};
+use super::cache::Cache;
 use super::compile::{has_logarithm, poison, side_by_side};
 use super::elements;
 use super::error::TracedError;
+use super::part::Part;
 use super::translation::Translations;
 use crate::system::context::Context;
 use crate::system::lifted::Arguments;
@@ -50,7 +51,7 @@ impl DiscreteProgram {
 }
 
 /// What discrete Lagrangians by their value alone have in common in one integrator: what is recorded of theirs, or why nothing is.
-pub(crate) type DiscreteCache<G> = Cache<G, DiscreteProgram>;
+pub(crate) type DiscreteCache<G> = Cache<G, Part, DiscreteProgram>;
 
 /// A recorded discrete Lagrangian, with storage to run it.
 pub(crate) struct DiscreteRecording<G: RealGroup, S: Scalar> {
@@ -59,7 +60,7 @@ pub(crate) struct DiscreteRecording<G: RealGroup, S: Scalar> {
 }
 
 struct Storage<G: RealGroup, S: Scalar> {
-    whose: Whose,
+    part: Part,
     program: Result<Arc<DiscreteProgram>, TracedError>,
     memory: Vec<S>,
     inputs: Vec<S>,
@@ -75,36 +76,44 @@ impl<G: RealGroup, S: Scalar> DiscreteRecording<G, S> {
         }
     }
 
-    /// Why there is no recording; none where there is one, or where none was asked for.
-    pub(crate) fn refusal(&self) -> Option<TracedError> {
-        self.storage.as_ref()?.program.as_ref().err().copied()
-    }
-
-    /// $d_f$ and $d_g$, one after the other; none where the value cannot be recorded.
+    /// $d_f$ and $d_g$, one after the other, of a part of the system; `record` gives the program for a shape.
     ///
-    /// `record` gives the program for a shape.
+    /// # Errors
+    /// Why the value is not recorded.
     pub(crate) fn run(
         &mut self,
-        whose: Whose,
+        part: Part,
         record: impl FnOnce(&G) -> Result<DiscreteProgram, TracedError>,
-        (at, (g, f), h): Arguments<'_, G, S>,
-    ) -> Option<&[S]> {
-        let fits = |known: &Storage<G, S>| known.whose == whose && known.scratch.same_shape(g);
+        arguments: Arguments<'_, G, S>,
+    ) -> Result<&[S], TracedError> {
+        let (_, (g, _), _) = arguments;
+        let fits = |known: &Storage<G, S>| known.part == part && known.scratch.same_shape(g);
         self.storage.take_if(|known| !fits(known));
         let cache = &self.cache;
         let storage = self.storage.get_or_insert_with(|| {
             // The shape alone matters.
             let shape = G::convert::<S, f64>(g, |_| 0.0);
-            Storage::new(whose, cache.find(&shape, whose, || record(&shape)), g)
+            Storage::new(part, cache.find(&shape, part, || record(&shape)), g)
         });
-        let DiscreteProgram(program) = &**storage.program.as_ref().ok()?;
-        let Storage {
+        let program = storage.program.clone()?;
+        storage.run(&program, arguments).ok_or(TracedError::Shape)
+    }
+}
+
+impl<G: RealGroup, S: Scalar> Storage<G, S> {
+    /// The results; none where `f` has another shape than `g`.
+    fn run(
+        &mut self,
+        DiscreteProgram(program): &DiscreteProgram,
+        (at, (g, f), h): Arguments<'_, G, S>,
+    ) -> Option<&[S]> {
+        let Self {
             memory,
             inputs,
             outputs,
             scratch,
             ..
-        } = storage;
+        } = self;
         let (context, elements) = inputs.split_at_mut_checked(1 + at.all.len())?;
         let (last, elements) = elements.split_last_mut()?;
         let (of_g, of_f) = elements.split_at_mut(elements.len() / 2);
@@ -115,14 +124,8 @@ impl<G: RealGroup, S: Scalar> DiscreteRecording<G, S> {
             elements::write::<G, S>(g, scratch, of_g) && elements::write::<G, S>(f, scratch, of_f);
         (fit && program.run(memory, inputs, outputs).is_ok()).then_some(&outputs[..])
     }
-}
 
-impl<G: RealGroup, S: Scalar> Storage<G, S> {
-    fn new(
-        whose: Whose,
-        program: Result<Arc<DiscreteProgram>, TracedError>,
-        g: &Over<G, S>,
-    ) -> Self {
+    fn new(part: Part, program: Result<Arc<DiscreteProgram>, TracedError>, g: &Over<G, S>) -> Self {
         let (memory, inputs, outputs) = match &program {
             Ok(program) => {
                 let DiscreteProgram(program) = &**program;
@@ -136,7 +139,7 @@ impl<G: RealGroup, S: Scalar> Storage<G, S> {
             Err(_) => Default::default(),
         };
         Self {
-            whose,
+            part,
             program,
             memory,
             inputs,

@@ -28,6 +28,12 @@ pub enum TracedError {
         /// The most operations that are written out.
         limit: usize,
     },
+    /// The formula is not in the memory of the system that is stepped, so that it may be another one at the next evaluation.
+    #[error("the formula is made anew for each evaluation: keep it in the system")]
+    Elsewhere,
+    /// A step's displacement has other factors than the configuration that it starts from.
+    #[error("the displacement has another shape than the configuration")]
+    Shape,
     /// Another formula, or another shape, was to be recorded again and again.
     #[error(
         "another formula or shape was recorded {times} times: one that stays the same is worth it alone"

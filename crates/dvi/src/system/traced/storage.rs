@@ -1,6 +1,6 @@
 //! What an evaluation writes to.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use lie::{DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 use trace::Program;
@@ -85,6 +85,39 @@ impl<S: Scalar> Numbers<S> {
             inputs: vec![S::zero(); program.inputs()],
             outputs: vec![S::zero(); program.outputs()],
         }
+    }
+}
+
+/// Storage for a program of the configuration alone, kept from call to call and shared by threads.
+pub(super) struct Shared<G: RealGroup>(Mutex<Option<(Numbers<f64>, G, G::Dual)>>);
+
+impl<G: RealGroup> core::fmt::Debug for Shared<G> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Shared").finish_non_exhaustive()
+    }
+}
+
+impl<G: RealGroup> Default for Shared<G> {
+    fn default() -> Self {
+        Self(Mutex::new(None))
+    }
+}
+
+/// Each has its own.
+impl<G: RealGroup> Clone for Shared<G> {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl<G: RealGroup> Shared<G> {
+    /// The program's result; none where it was recorded for another shape.
+    pub(super) fn run(&self, program: &Program, at: Context<f64>, g: &G) -> Option<f64> {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.take_if(|(_, known, _)| !known.same_shape(g));
+        let new = || (Numbers::of(program), g.clone(), g.zero_dual());
+        let (numbers, scratch, mu) = kept.get_or_insert_with(new);
+        run::<G, f64>(program, (numbers, scratch), at, g, mu).map(|out| out[0])
     }
 }
 
