@@ -182,7 +182,7 @@ pub(super) fn stepper<C: ContinuousSystem + 'static, R: Retraction>(
     let means = match C::IS_RECORDED {
         true => match system.recorded(t, g) {
             Ok(recorded) => {
-                let steps = New::<TracedSystem<C::Group>, R>::new(tableau, g);
+                let steps = New::<TracedSystem<C::Group>, R>::at(tableau, g);
                 let steps = run(instructions, steps);
                 return (Box::new(OnRecording { recorded, steps }), Means::Recorded);
             }
@@ -190,7 +190,7 @@ pub(super) fn stepper<C: ContinuousSystem + 'static, R: Retraction>(
         },
         false => system.means(t, g),
     };
-    let new = New::<C, R>::new(tableau, g);
+    let new = New::<C, R>::at(tableau, g);
     let steps = match C::INLINE {
         true => run(instructions, new),
         false => new.run::<f64>(),
@@ -205,7 +205,7 @@ struct New<'a, C: ContinuousSystem, R> {
 }
 
 impl<'a, C: ContinuousSystem, R> New<'a, C, R> {
-    fn new(tableau: &'a Tableau, g: &'a C::Group) -> Self {
+    fn at(tableau: &'a Tableau, g: &'a C::Group) -> Self {
         Self {
             tableau,
             g,

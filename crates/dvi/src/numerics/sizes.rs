@@ -212,6 +212,12 @@ impl Sizes {
             block.inverse_scale = 1.0 / block.scale;
             self.scale = larger(self.scale, block.scale * block.weight);
         }
+        // What has no momentum may come to rest by rounding alone: its correction is never small beside nothing.
+        let rounding = f64::EPSILON * self.scale;
+        for block in self.blocks.iter_mut().filter(|block| block.scale == 0.0) {
+            block.scale = rounding / block.weight;
+            block.inverse_scale = 1.0 / block.scale;
+        }
     }
 
     /// Makes the scale of each block at least that of its kind.

@@ -313,6 +313,16 @@ impl<L: DiscreteLagrangian> Work<L> {
             }
             best = best.min(residual);
             let falls = residual <= progress.last.overall.max(AT_ROOT);
+            if exact && !falls && goal.accepts_rounding && measured == 0 {
+                measured = 1;
+                if self.is_noise_of_start(lagrangian, (state, h), goal.tolerance) {
+                    let found = self.residual();
+                    match self.finish(lagrangian, (state, h), goal, found) {
+                        Some(ended) => return ended.after(iterations),
+                        None => continue,
+                    }
+                }
+            }
             if exact && !falls && part > SHORTEST_CORRECTION {
                 part *= 0.5;
                 self.c.add_scaled(part, &self.delta);
@@ -449,6 +459,27 @@ impl<L: DiscreteLagrangian> Work<L> {
         self.c.copy_from(&other.c);
         self.evaluate(lagrangian, state, h);
         self.shaken = Some(other);
+        self.residual();
+        self.is_settled(tolerance)
+    }
+
+    /// The same by what rounding makes of the balance where the iteration has started.
+    ///
+    /// At rest under forces that balance, momenta are rounding, and the residual is not small beside them. Where the iteration went astray
+    /// numbers may be so large that any residual is rounding of theirs: those of the start are not.
+    #[cold]
+    fn is_noise_of_start(
+        &mut self,
+        lagrangian: &L,
+        (state, h): (&State<L::Group>, f64),
+        tolerance: f64,
+    ) -> bool {
+        let here = self.c.clone();
+        self.c.read(&self.coordinates);
+        self.evaluate(lagrangian, state, h);
+        self.is_noise(lagrangian, (state, h), (tolerance, 1));
+        self.c.copy_from(&here);
+        self.evaluate(lagrangian, state, h);
         self.residual();
         self.is_settled(tolerance)
     }

@@ -8,6 +8,7 @@ use lie::{
     AlgebraOver, Cotangent, DualOver, LieGroup, Over, Power, Rn, SE3, Scalar, Tangent, Vec3,
     VectorSpace,
 };
+use proptest::prelude::*;
 
 /// A particle of 1 kg on a spring of 100 N/m, whose rest is far from the origin: positions and what they differ by cancel.
 #[derive(Clone, Copy)]
@@ -261,4 +262,79 @@ fn a_system_too_large_for_a_dense_matrix_is_refused_at_once() {
         panic!("{error}");
     };
     assert!(iterations < 100, "{error}");
+}
+
+/// Masses in a row between two walls, on springs under one tension: at rest all forces balance, whatever they are.
+#[derive(Clone, Debug)]
+struct Row {
+    /// N/m, of one spring more than masses.
+    stiffnesses: Vec<f64>,
+    /// m.
+    lengths: Vec<f64>,
+    tension: f64,
+}
+
+impl System for Row {
+    type Group = Power<Rn<1>>;
+}
+
+impl Lagrangian for Row {
+    fn value<S: Scalar>(&self, _: Context<S>, x: &Power<Rn<1, S>>, v: &Power<Tangent<1, S>>) -> S {
+        let kinetic = v.iter().fold(S::zero(), |sum, v| sum + v[0] * v[0]);
+        let wall = S::from_f64(self.places().sum());
+        let ends = x.iter().map(|x| x.0[0]).chain([wall]);
+        let mut before = S::zero();
+        let springs = self.stiffnesses.iter().zip(&self.lengths).zip(ends);
+        let elastic = springs.fold(S::zero(), |sum, ((stiffness, length), end)| {
+            let stretch = end - before - S::from_f64(*length);
+            before = end;
+            sum + (stretch * stretch).times(*stiffness)
+        });
+        (kinetic - elastic).times(0.5)
+    }
+}
+
+impl Row {
+    /// How long each spring is at rest.
+    fn places(&self) -> impl Iterator<Item = f64> {
+        let springs = self.stiffnesses.iter().zip(&self.lengths);
+        springs.map(|(stiffness, length)| length + self.tension / stiffness)
+    }
+
+    fn at_rest(&self) -> State<Power<Rn<1>>> {
+        let mut x = 0.0;
+        let sums = self.places().map(|length| {
+            x += length;
+            Rn([x])
+        });
+        let g = Power::new(sums.take(self.stiffnesses.len() - 1).collect());
+        let mu = g.zero_dual();
+        State { t: 0.0, g, mu }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn what_is_at_rest_under_forces_that_balance_stays(
+        springs in prop::collection::vec((1.0..1e4_f64, 0.01..1.0_f64), 3..12),
+        tension in 1.0..1e4_f64,
+    ) {
+        let (stiffnesses, lengths) = springs.into_iter().unzip();
+        let row = Row { stiffnesses, lengths, tension };
+        let discrete = row.clone().discretise(Quadrature::Midpoint);
+        let moves = |integrator: &mut dyn Integrator<Group = Power<Rn<1>>>| {
+            let mut state = row.at_rest();
+            for _ in 0..100 {
+                integrator.step(&mut state, 1e-3).unwrap_or_else(|e| panic!("{e}"));
+            }
+            let start = row.at_rest();
+            let moved = start.g.iter().zip(state.g.iter()).map(|(a, b)| (a.0[0] - b.0[0]).abs());
+            moved.fold(0.0, f64::max)
+        };
+        // Forces are rounded by 1e-16 of 1e4 N; springs of 1 N/m are as much softer, and time is short.
+        prop_assert!(moves(&mut Variational::new(discrete)) < 1e-11);
+        prop_assert!(moves(&mut Gauss::new::<3>(row.clone().hamiltonian())) < 1e-11);
+    }
 }

@@ -89,7 +89,14 @@ impl<S: Scalar> Numbers<S> {
 }
 
 /// Storage for a program of the configuration alone, kept from call to call and shared by threads.
-pub(super) struct Shared<G: RealGroup>(Mutex<Option<(Numbers<f64>, G, G::Dual)>>);
+pub(super) struct Shared<G: RealGroup>(Mutex<Option<Place<G>>>);
+
+/// Storage for configurations of one shape, without a momentum.
+struct Place<G: RealGroup> {
+    numbers: Numbers<f64>,
+    scratch: G,
+    mu: G::Dual,
+}
 
 impl<G: RealGroup> core::fmt::Debug for Shared<G> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -114,9 +121,16 @@ impl<G: RealGroup> Shared<G> {
     /// The program's result; none where it was recorded for another shape.
     pub(super) fn run(&self, program: &Program, at: Context<f64>, g: &G) -> Option<f64> {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.take_if(|(_, known, _)| !known.same_shape(g));
-        let new = || (Numbers::of(program), g.clone(), g.zero_dual());
-        let (numbers, scratch, mu) = kept.get_or_insert_with(new);
+        kept.take_if(|known| !known.scratch.same_shape(g));
+        let Place {
+            numbers,
+            scratch,
+            mu,
+        } = kept.get_or_insert_with(|| Place {
+            numbers: Numbers::of(program),
+            scratch: g.clone(),
+            mu: g.zero_dual(),
+        });
         run::<G, f64>(program, (numbers, scratch), at, g, mu).map(|out| out[0])
     }
 }
