@@ -208,6 +208,7 @@ pub fn show() -> Result<(), Box<dyn core::error::Error>> {
         ..Figure::default()
     }
     .render()?;
+    std::fs::create_dir_all("out")?;
     lgvi::sim::file::write("out/cantilever.png", drawn.png)?;
     println!("drawn to out/cantilever.png");
     Ok(())

@@ -84,6 +84,7 @@ pub fn show(steps: u32) -> Result<(), Box<dyn core::error::Error>> {
         ..Figure::default()
     }
     .render()?;
+    std::fs::create_dir_all("out")?;
     lgvi::sim::file::write("out/flight.png", drawn.png)?;
     println!("drawn to out/flight.png");
     Ok(())
