@@ -191,9 +191,11 @@ pub(super) fn stepper<C: ContinuousSystem + 'static, R: Retraction>(
         false => system.means(t, g),
     };
     let new = New::<C, R>::at(tableau, g);
-    let steps = match C::INLINE {
-        true => run(instructions, new),
-        false => new.run::<f64>(),
+    // Dual numbers in lanes would cost more than they save.
+    let in_lanes = !matches!(means, Means::DualNumbers { .. });
+    let steps = match const { C::INLINE && !C::IS_RECORDED } {
+        true if in_lanes => run(instructions, new),
+        _ => new.run::<f64>(),
     };
     (steps, means)
 }

@@ -8,7 +8,6 @@ use super::discrete::{Derivatives, DiscreteLagrangian};
 use super::force::{DiscreteForce, Force};
 use super::lagrangian::Discretised;
 use super::state::Still;
-use super::traced::TracedSystem;
 
 /// A system and a force that acts on it: a discrete Lagrangian with a [`DiscreteForce`], a [`ContinuousSystem`] with a [`Force`].
 ///
@@ -154,7 +153,6 @@ where
 {
     type Workspace<S: Scalar> = ForcedWorkspace<L::Workspace<S>, DualOver<L::Group, S>>;
     const INLINE: bool = L::INLINE && F::INLINE;
-    const IS_RECORDED: bool = L::IS_RECORDED;
 
     #[inline(always)]
     fn velocity_and_force<S: Scalar>(
@@ -181,11 +179,5 @@ where
     }
     fn means(&self, t: f64, g: &L::Group) -> Means {
         self.system.means(t, g)
-    }
-
-    /// None also where the force cannot be recorded: then it is evaluated as it is, beside what is recorded of the system.
-    fn recorded(&self, t: f64, g: &L::Group) -> Result<TracedSystem<L::Group>, Means> {
-        let system = self.system.recorded(t, g)?;
-        system.with_force(&self.force).map_err(|_| Means::Recorded)
     }
 }

@@ -83,8 +83,10 @@ impl<L: Lagrangian> Adapter for HamiltonianSystem<L> {
 
 impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     type Workspace<S: Scalar> = HamiltonianWorkspace<L, S>;
+    const INLINE: bool = true;
     const IS_RECORDED: bool = true;
 
+    #[inline(always)]
     fn velocity_and_force<S: Scalar>(
         &self,
         at: Context<S>,
@@ -98,7 +100,9 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
         let shape = || L::Group::convert::<S, f64>(g, |_| 0.0);
         let find = || Some(self.traced(&shape()).ok()?.programs().clone());
         let found = work.recorded.run(find, at, g, mu);
-        if found.is_some_and(|out| out.iter().all(|x| x.magnitude().is_finite())) {
+        let is_finite = |out: &&[S]| out.iter().all(|x| x.magnitude().is_finite());
+        // Steps run in lanes by what is recorded alone.
+        if !S::IS_SINGLE || found.as_ref().is_some_and(is_finite) {
             return read_rates(found, xi, tau);
         }
         let work = &mut work.by_duals;

@@ -1,8 +1,11 @@
-//! A force beside a recorded system is recorded with it.
+//! Forces beside recorded systems, and recorded with them.
+
+use core::cell::Cell;
+use std::rc::Rc;
 
 use dvi::{
-    Context, ContinuousSystem, DualSystem, FirstVariation, Force, Forced, Gauss, Integrator,
-    Lagrangian, Means, ShapeError, System, TracedSystem, Variation,
+    Context, DualSystem, FirstVariation, Force, Forced, Gauss, Integrator, Lagrangian, Means,
+    ShapeError, System, TracedError, TracedSystem, Variation,
 };
 use lie::{Cotangent, SO3, Scalar, Tangent, VectorSpace};
 
@@ -31,15 +34,16 @@ impl<const BRANCHES: bool> Force for Drag<BRANCHES> {
         for i in 0..3 {
             out[i] = w[i] * speed.times(drag);
         }
-        out[2] = out[2] + at.t.sin().times(0.3);
+        out[2] += at.t.sin().times(0.3);
     }
 }
 
 #[test]
 fn it_acts_as_it_does_beside_dual_numbers() {
     let drag = Drag::<false>;
-    let mut recorded = Gauss::new::<4>(Forced::new(Top.hamiltonian(), drag));
-    let mut looks = Gauss::new::<4>(Forced::new(Top.hamiltonian(), Drag::<true>));
+    let system = TracedSystem::new(&Top, &top().g).unwrap().with_force(&drag);
+    let mut recorded = Gauss::new::<4>(system.unwrap());
+    let mut beside = Gauss::new::<4>(Forced::new(Top.hamiltonian(), drag));
     let mut by_duals = Gauss::new::<4>(Forced::new(DualSystem(Top), drag));
     assert!(!recorded.is_symplectic());
     let [mut one, mut two, mut three] = [(); 3].map(|()| top());
@@ -47,7 +51,7 @@ fn it_acts_as_it_does_beside_dual_numbers() {
     for _ in 0..50 {
         let report = recorded.step_varied(&mut one, &mut first, 0.05).unwrap();
         assert_eq!(report.means, Means::Recorded);
-        looks.step(&mut two, 0.05).unwrap();
+        beside.step(&mut two, 0.05).unwrap();
         by_duals.step_varied(&mut three, &mut second, 0.05).unwrap();
     }
     // Fifty solutions to rounding; rounding is carried on by what the flow makes of it, less than tenfold.
@@ -57,9 +61,42 @@ fn it_acts_as_it_does_beside_dual_numbers() {
         let off = (one.eta - two.eta).max_magnitude() + (one.mu - two.mu).max_magnitude();
         assert!(off < 1e-11, "{one:?} {two:?}");
     }
-    let system = Forced::new(Top.hamiltonian(), drag);
-    let forced = system.recorded(0.0, &top().g).unwrap();
-    assert!(forced.program().instructions() > 0 && !forced.is_symplectic());
+    let branches = TracedSystem::new(&Top, &top().g)
+        .unwrap()
+        .with_force(&Drag::<true>);
+    assert!(matches!(branches, Err(TracedError::Trace(_))));
+}
+
+/// A torque about the axis that is set from outside.
+#[derive(Clone)]
+struct Motor(Rc<Cell<f64>>);
+
+impl Force for Motor {
+    type Group = SO3;
+    fn force<S: Scalar>(
+        &self,
+        _: Context<S>,
+        _: &SO3<S>,
+        _: &Tangent<3, S>,
+        out: &mut Cotangent<3, S>,
+    ) {
+        out[2] = S::from_f64(self.0.get());
+    }
+}
+
+#[test]
+fn a_control_that_is_set_between_steps_is_felt() {
+    let torque = Rc::new(Cell::new(0.0));
+    let forced = || Forced::new(Top.hamiltonian(), Motor(Rc::clone(&torque)));
+    let (mut integrator, mut state, mut never) = (Gauss::new::<4>(forced()), top(), top());
+    let mut alone = Gauss::new::<4>(Top.hamiltonian());
+    for k in 0..10 {
+        torque.set(if k < 5 { 0.0 } else { 0.5 });
+        integrator.step(&mut state, 0.05).unwrap();
+        alone.step(&mut never, 0.05).unwrap();
+        let is_felt = apart(&state, &never) > 1e-3;
+        assert_eq!(is_felt, k >= 5, "{k}");
+    }
 }
 
 /// A top of which mass and lever are parameters.

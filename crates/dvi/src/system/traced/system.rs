@@ -101,7 +101,9 @@ impl<G: RealGroup> TracedSystem<G> {
         Ok(self)
     }
 
-    /// The same with a force, which is recorded too.
+    /// The same with a force, which is recorded too: in place of [`Forced`](crate::Forced), which evaluates it anew each time.
+    ///
+    /// What the force reads from elsewhere stays as it is now: a control that is set from outside belongs in a `Forced`.
     ///
     /// # Errors
     /// [`TracedError::Trace`] where the force branches on a number or calls [`Scalar::smooth`].
