@@ -9,7 +9,7 @@ use super::stages::{Coefficients, Stages};
 use super::tableau::Tableau;
 use crate::numerics::duals::lift;
 use crate::numerics::numbers::larger;
-use crate::numerics::sizes::{Kinds, NOISE, Weights, relative_beside, shaken};
+use crate::numerics::sizes::{Kinds, NOISE, Shaker, Weights, relative_beside};
 use crate::{Context, ContinuousSystem, State};
 
 /// Sweeps for which it holds what is rounding.
@@ -743,9 +743,11 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         self.shakes += 1;
         let time = self.shakes;
         for places in [&mut self.c, &mut self.pi] {
-            places.items_mut().for_each(|x| *x = shaken(*x, time));
+            let shaker = Shaker::new(time);
+            places.items_mut().for_each(|x| *x = shaker.shake(*x));
         }
-        C::Group::convert_into::<f64, f64>(g, |x| shaken(x, time), moved);
+        let shaker = Shaker::new(time);
+        C::Group::convert_into::<f64, f64>(g, |x| shaker.shake(x), moved);
         self.start_at(moved);
         self.evaluate::<R>(system, (t, h));
         self.start_at(g);

@@ -1,5 +1,6 @@
 //! Sizes of vectors whose coordinates have different units: compared block by block, and kind by kind.
 
+use core::cell::Cell;
 use core::ops::Range;
 
 use lie::{LieGroup, Units, VectorSpace};
@@ -340,18 +341,36 @@ fn largest(numbers: &[f64]) -> f64 {
     max + poison
 }
 
-/// Moves a number by two units of its last place, up or down as one of its digits says, every other time up: what cannot be told from it.
+/// Moves numbers by two units of their last place, up or down, so that they cannot be told from what they were.
 ///
-/// What the moved numbers do may cancel: the next time they are moved otherwise.
-#[inline(always)]
-pub(crate) fn shaken(x: f64, time: u32) -> f64 {
-    let digit = x.to_bits() >> (time / 2 % DIGITS) & 1;
-    let up = digit == 0 || time.is_multiple_of(2);
-    let sign = if up { 1.0 } else { -1.0 };
-    x + sign * 2.0 * f64::EPSILON * x
+/// Every other time one of its digits says whether a number goes up, else its place in the row of numbers: numbers that are equal
+/// would else move together, and what they do cancel.
+pub(crate) struct Shaker {
+    time: u32,
+    next: Cell<u32>,
+}
+
+impl Shaker {
+    pub(crate) fn new(time: u32) -> Self {
+        let next = Cell::new(time);
+        Self { time, next }
+    }
+
+    /// The next number, moved.
+    #[inline]
+    pub(crate) fn shake(&self, x: f64) -> f64 {
+        let place = self.next.replace(self.next.get().wrapping_add(1));
+        let up = match self.time.is_multiple_of(2) {
+            true => place.wrapping_mul(0x9e37_79b9) >> 31 == 0,
+            false => x.to_bits() >> (self.time / 2 % DIGITS) & 1 == 0,
+        };
+        let sign = if up { 1.0 } else { -1.0 };
+        x + sign * 2.0 * f64::EPSILON * x
+    }
 }
 
 /// Shakes every coordinate.
 pub(crate) fn shake<V: VectorSpace<Scalar = f64>>(x: &mut V, time: u32) {
-    (0..x.dim()).for_each(|i| x.set(i, shaken(x.get(i), time)));
+    let shaker = Shaker::new(time);
+    (0..x.dim()).for_each(|i| x.set(i, shaker.shake(x.get(i))));
 }

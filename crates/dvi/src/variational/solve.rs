@@ -9,7 +9,7 @@ use super::matrix::Matrix;
 use super::newton::cyclic;
 use super::warm_start::WarmStart;
 use crate::numerics::numbers::larger;
-use crate::numerics::sizes::{Kinds, Relative, Sizes, Weights, shake, shaken};
+use crate::numerics::sizes::{Kinds, Relative, Shaker, Sizes, Weights, shake};
 use crate::system::{Algebra, DiscreteCache, Dual};
 use crate::{Context, Derivatives, DiscreteLagrangian, State, StepReport, Still};
 
@@ -446,7 +446,8 @@ impl<L: DiscreteLagrangian> Work<L> {
             residual: self.balance.residual.clone(),
         };
         let mut other = self.shaken.take().unwrap_or_else(storage);
-        L::Group::convert_into::<f64, f64>(&state.g, |x| shaken(x, time), &mut other.state.g);
+        let shaker = Shaker::new(time);
+        L::Group::convert_into::<f64, f64>(&state.g, |x| shaker.shake(x), &mut other.state.g);
         other.state.t = state.t;
         other.state.mu.copy_from(&state.mu);
         other.c.copy_from(&self.c);
