@@ -1,0 +1,132 @@
+// The picture: ground and shadows, the ways of the heads, joints and bodies with outlines.
+
+const NUMBERS = 15; // of an instance
+const LAYOUT = [["centre", 3], ["attitude", 4], ["axes", 3], ["stretch", 1], ["colour", 4]];
+
+class Picture {
+  constructor(canvas, motions, camera) {
+    const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+    if (!gl) throw new Error("this browser offers no WebGL2; try another one");
+    Object.assign(this, { gl, canvas, motions, camera, shown: motions.map(() => true) });
+    this.solid = new Program(gl, SOLID);
+    this.way = new Program(gl, WAY);
+    this.ground = new Program(gl, GROUND);
+    const many = motions[0].bodies.length > 60;
+    this.parts = motions.map((motion, m) => {
+      const { bodies, fittings } = solids(motion.bodies, m > 0);
+      return [this.batch(bodies, many ? [10, 16] : [24, 40]), this.batch(fittings, many ? [4, 8] : [10, 16])];
+    });
+    const square = new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]);
+    this.plane = this.ground.arrange([square, false, ["corner", 2]]);
+    this.ways = motions.map((motion) => this.wayOf(motion));
+    this.low = camera.box[0][2] - 0.25 * camera.size;
+  }
+
+  batch(list, [rings, sectors]) {
+    const gl = this.gl, { points, triangles } = sphere(rings, sectors);
+    const instances = new Float32Array(list.length * NUMBERS);
+    list.forEach(({ axes, stretch, colour }, k) => instances.set([...axes, stretch, ...colour], k * NUMBERS + 7));
+    const { array, buffers } = this.solid.arrange([points, false, ["point", 3]], [instances, true, ...LAYOUT]);
+    const index = gl.createBuffer();
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, index);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, triangles, gl.STATIC_DRAW);
+    return { list, instances, array, buffer: buffers[1], count: triangles.length };
+  }
+
+  wayOf(motion) {
+    const points = [];
+    for (let k = 0; k < motion.frames; k++) points.push(...motion.place.map((x) => x[k]), motion.t[k]);
+    const corners = new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]);
+    const made = this.way.arrange([corners, false, ["corner", 2]], [new Float32Array(points), true, ["from", 3], ["when", 1]]);
+    // The end of a piece is the beginning of the next one.
+    const gl = this.gl, place = gl.getAttribLocation(this.way.program, "to");
+    gl.bindBuffer(gl.ARRAY_BUFFER, made.buffers[1]);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 16, 16);
+    gl.vertexAttribDivisor(place, 1);
+    return { array: made.array, count: motion.frames - 1 };
+  }
+
+  // Puts the instances where a pose has them.
+  place({ list, instances, buffer }, { q, x }) {
+    list.forEach(({ body, at, turn }, k) => {
+      const centre = at ? add(x[body], rotate(q[body], at)) : x[body];
+      instances.set(centre, k * NUMBERS);
+      instances.set(turn === ALONG_X ? q[body] : compose(q[body], turn), k * NUMBERS + 3);
+    });
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, buffer);
+    this.gl.bufferSubData(this.gl.ARRAY_BUFFER, 0, instances);
+  }
+
+  draw(t) {
+    const { gl, canvas, camera } = this;
+    const view = camera.view(t), pixels = [canvas.width, canvas.height];
+    const paper = rgb(variable("--water")), ink = rgb(variable("--ink"));
+    gl.viewport(0, 0, ...pixels);
+    gl.clearColor(...paper, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.enable(gl.CULL_FACE);
+    const parts = this.parts.filter((_, m) => this.shown[m]);
+    this.motions.forEach((motion, m) => {
+      const pose = this.shown[m] && motion.pose(t);
+      if (pose) this.parts[m].forEach((part) => this.place(part, pose));
+    });
+    const ground = this.drawGround(view, paper);
+    const solid = { matrix: view.matrix, pixels, eye: view.eye };
+    this.solid.set({ ...solid, rim: 0, ground, flat_colour: [...mix(paper, ink, 0.13), 1] });
+    parts.flat().forEach((part) => this.instances(part));
+    gl.enable(gl.DEPTH_TEST);
+    this.drawWays(view, t, pixels, paper);
+    const wide = 1.3 * (canvas.width / canvas.clientWidth || 1);
+    this.solid.set({ ...solid, rim: wide, ground: -2e30, flat_colour: [0.05, 0.07, 0.09, 1] });
+    gl.cullFace(gl.FRONT);
+    parts.flat().forEach((part) => this.instances(part));
+    gl.cullFace(gl.BACK);
+    parts.forEach((both) => both.forEach((part, isFitting) => {
+      this.solid.set({ rim: 0, flat_colour: [0, 0, 0, 0], seam: isFitting ? 0 : 1 });
+      this.instances(part);
+    }));
+  }
+
+  instances({ array, count, list }) {
+    this.gl.bindVertexArray(array);
+    this.gl.drawElementsInstanced(this.gl.TRIANGLES, count, this.gl.UNSIGNED_SHORT, 0, list.length);
+  }
+
+  // Under everything: it hides nothing. Where a motion goes far down, the ground goes along.
+  drawGround({ matrix, target }, paper) {
+    const { gl, camera } = this;
+    const drop = camera.box[1][2] - camera.box[0][2] > 6 * camera.size;
+    const height = drop ? target[2] - 1.1 * camera.size : this.low;
+    this.cell = round(camera.distance / 24);
+    gl.disable(gl.DEPTH_TEST);
+    gl.disable(gl.CULL_FACE);
+    this.ground.set({ matrix, middle: [target[0], target[1], height], reach: 2.2 * camera.distance, cell: this.cell, paper, line: rgb(variable("--soft")) });
+    gl.bindVertexArray(this.plane.array);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    gl.enable(gl.CULL_FACE);
+    return height;
+  }
+
+  drawWays({ matrix }, now, pixels, paper) {
+    const { gl } = this;
+    gl.disable(gl.CULL_FACE);
+    this.ways.forEach(({ array, count }, m) => {
+      if (!this.shown[m]) return;
+      this.way.set({ matrix, pixels, now, paper, width: 2.2 * devicePixelRatio, paint: rgb(m ? GHOST : HEAD) });
+      gl.bindVertexArray(array);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+    });
+    gl.enable(gl.CULL_FACE);
+  }
+
+  // Whether each body is in the picture, whole; for tests.
+  inView(t) {
+    const { matrix } = this.camera.view(t);
+    return this.motions.flatMap((motion) => motion.pose(t).x.map(([x, y, z]) => {
+      const clip = [0, 1, 3].map((row) => matrix[row] * x + matrix[4 + row] * y + matrix[8 + row] * z + matrix[12 + row]);
+      return clip[2] > 0 && Math.abs(clip[0]) <= clip[2] && Math.abs(clip[1]) <= clip[2];
+    }));
+  }
+}
