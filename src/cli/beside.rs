@@ -129,7 +129,10 @@ mod explicit {
         run: &Simulation,
         times: impl Iterator<Item = f64>,
     ) -> Result<Second, CliError> {
-        let (model, start) = (run.model(), scene.initial_state().map_err(sim::SimError::from)?);
+        let (model, start) = (
+            run.model(),
+            scene.initial_state().map_err(sim::SimError::from)?,
+        );
         let (until, step) = (run.clock().until(), run.clock().step());
         let mut recording = Recording::new(model);
         let (how, ended) = match baseline.motion(model, &start, until, TOLERANCE) {

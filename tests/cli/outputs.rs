@@ -4,15 +4,84 @@ use std::fs;
 
 use super::{directory, fails, files, lgvi, text};
 
+/// Before the run, which would take for ever.
 #[test]
-fn a_name_of_another_format_is_refused() {
-    for name in ["x.html", "x.HTM", "x.svg", "x.json"] {
-        let args = ["run", "--until", "1", "--out", name];
-        fails(&args, 2, &["--out", name, "CSV", "ends in .csv"]);
+fn an_ending_that_tells_no_format_is_refused() {
+    for name in ["x.htm", "x.svg", "x.json", "x.html.dat", "x", ".csv"] {
+        let args = ["run", "--until", "1e8", "--out", "a.csv", "--out", name];
+        fails(&args, 2, &["--out", name, ".csv, .html, .glb or .npz"]);
     }
+}
+
+#[test]
+fn a_name_that_is_given_twice_is_refused() {
+    let args = [
+        "run", "--until", "1e8", "--out", "a.csv", "--out", "./a.csv",
+    ];
+    fails(&args, 2, &["--out ./a.csv is given twice"]);
+}
+
+#[test]
+fn a_second_method_needs_a_page() {
+    let args = ["run", "--beside", "gauss-4", "--out", "a.csv"];
+    fails(&args, 2, &["--beside needs a page", ".html"]);
+    fails(
+        &["run", "--beside", "gauss-4x", "--out", "a.html"],
+        2,
+        &["--beside"],
+    );
+}
+
+/// Each by its ending, from one run, with as many samples.
+#[test]
+fn a_run_is_written_in_several_formats_at_once() {
     let directory = directory();
-    let args = ["run", "--until", "0.01", "--out", "x.html.dat"];
-    assert_eq!(lgvi(directory.path(), &args).status.code(), Some(0));
+    let path = directory.path();
+    let mut args = vec!["run", "--until", "0.5", "--every-seconds", "0.1", "--json"];
+    let names = ["a.CSV", "a.glb", "a.html", "a.npz"];
+    args.extend(names.iter().flat_map(|name| ["--out", name]));
+    let summary = crate::json(path, &args);
+    assert_eq!(summary["csv"], "a.CSV");
+    assert_eq!(summary["written"], serde_json::json!(names));
+    assert_eq!(files(path), names);
+    let read = |name: &str| fs::read(path.join(name)).unwrap();
+    assert_eq!(text(&read("a.CSV")).lines().count(), 7);
+    assert!(text(&read("a.html")).contains("\"frames\":6,"));
+    assert_eq!(
+        (&read("a.glb")[..4], &read("a.npz")[..2]),
+        (&b"glTF"[..], &b"PK"[..])
+    );
+}
+
+/// Samples enough for the eye, unless others are asked for.
+#[test]
+fn a_page_has_samples_of_its_own() {
+    let directory = directory();
+    let path = directory.path();
+    for (more, samples) in [(&[][..], 2501), (&["--every", "100"][..], 6)] {
+        let args = ["run", "--until", "0.5", "--json", "--out", "a.html"];
+        let summary = crate::json(path, &[&args, more].concat());
+        assert_eq!(summary["samples"], samples, "{more:?}");
+    }
+}
+
+#[test]
+fn a_second_method_is_on_the_page() {
+    let directory = directory();
+    let path = directory.path();
+    let mut methods = vec!["composition-2"];
+    if cfg!(feature = "chart") {
+        methods.extend(["dp54", "rk4"]);
+    }
+    for method in methods {
+        let args = [
+            "run", "--until", "0.5", "--out", "a.html", "--beside", method,
+        ];
+        let output = lgvi(path, &args);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let page = fs::read_to_string(path.join("a.html")).unwrap();
+        assert!(page.contains(&format!("\"name\":\"{method}\"")), "{method}");
+    }
 }
 
 /// What is no name of a file is an argument that is wrong, for every command.

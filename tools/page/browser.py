@@ -58,7 +58,7 @@ class Browser:
 class Page:
     """A page, its complaints, and the requests that it made."""
 
-    def __init__(self, browser, path, width=1280, height=800, scheme="light"):
+    def __init__(self, browser, path, width=1280, height=800, scheme="light", scale=1):
         self.browser, self.session = browser, None
         self.complaints, self.requests = [], []
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
@@ -66,7 +66,7 @@ class Page:
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=False)
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
         self.call("Page.navigate", url=f"file://{os.path.abspath(path)}")
         while self.run("document.readyState") != "complete":
@@ -118,6 +118,5 @@ class Page:
         return base64.b64decode(self.call("Page.captureScreenshot", format="png", **clip)["data"])
 
     def close(self):
-        session, self.session = self.session, None
+        self.session = None
         self.call("Target.closeTarget", targetId=self.target)
-        del session

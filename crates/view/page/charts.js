@@ -1,6 +1,7 @@
 // Charts over time, with the picture's time marked on them.
 
 const FEW = 8; // lines in a chart; more joints are a map of tiles
+const NOTHING = -17.9; // the logarithm of what stands for zero
 
 class Charts {
   constructor(place, charts, end, go) {
@@ -64,8 +65,9 @@ function range({ lines: all, log }) {
   if (!(low <= high)) [low, high] = [0, 1];
   if (log) {
     // What is zero for a while, as an error at the start, does not set the scale.
-    const sorted = Float32Array.from(all.flatMap(({ data }) => [...data])).sort();
-    [low, high] = [Math.floor(sorted[Math.floor(sorted.length / 50)]), Math.max(Math.ceil(high), Math.floor(low) + 1)];
+    const sorted = Float32Array.from(all.flatMap(({ data }) => [...data.filter((y) => y > NOTHING)])).sort();
+    low = sorted.length ? sorted[Math.floor(sorted.length / 50)] : high;
+    [low, high] = [Math.floor(low), Math.max(Math.ceil(high), Math.floor(low) + 1)];
   }
   if (high - low < 1e-12 * Math.max(Math.abs(low), Math.abs(high), 1e-300) || high === low) [low, high] = [low - (Math.abs(low) || 1), high + (Math.abs(high) || 1)];
   const pad = log ? 0.02 * (high - low) : 0.06 * (high - low);
@@ -94,7 +96,9 @@ function lines(pen, chart, area, end) {
   pen.lineJoin = "round";
   for (const { data, motion, colour, dashed } of chart.lines) {
     pen.beginPath();
-    data.forEach((y, k) => pen.lineTo(area.x + (area.w * motion.t[k]) / end, down(y)));
+    data.forEach((y, k) => {
+      if (!chart.log || y > NOTHING) pen.lineTo(area.x + (area.w * motion.t[k]) / end, down(y));
+    });
     Object.assign(pen, { strokeStyle: colour, lineWidth: 1.4 });
     pen.setLineDash(dashed ? [5, 3] : []);
     pen.stroke();
