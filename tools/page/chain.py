@@ -9,7 +9,8 @@ print(f'title = "a chain of {count} ellipsoids"\nfluid.density = 1000\nstart.vel
 for i in range(count):
     wave = 2 * math.pi * i / 20
     angle, rate = 0.35 * math.sin(wave), 0.1 * math.cos(wave)
-    turn = f"angular_velocity = [0, 0.03, {rate:.4f}]" if i == 0 else f"joint_rate = [0, 0.01, {rate:.4f}]"
+    out = 0.03 * math.cos(wave / 3)
+    turn = f"{'angular_velocity' if i == 0 else 'joint_rate'} = [0, {out:.4f}, {rate:.4f}]"
     attitude = f"attitude = {{ axis = [0, 0, 1], angle = {angle:.4f} }}"
     print(f'[[body]]\nname = "{i}"\nsemi_axes = [0.1, 0.045, 0.06]\n{attitude}\n{turn}\n')
 for i in range(1, count):

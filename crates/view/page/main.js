@@ -4,7 +4,7 @@ const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500];
 const LONGEST = 30; // s that a run takes to be seen, unless asked otherwise
 const at = (id) => document.getElementById(id);
 
-// For scripts: the time, and whether all is in view. `ready` is a promise.
+// For scripts: the time, and where the bodies are in the picture. `ready` is a promise.
 window.lgvi = { ready: start().catch((error) => { trouble(error); throw error; }) };
 
 function trouble(error) {
@@ -82,7 +82,7 @@ async function start() {
   }
 
   play(false);
-  Object.assign(window.lgvi, { end, go, play, theme, camera, draw: () => picture.draw(state.t), time: () => state.t, inView: (t) => picture.inView(t) });
+  Object.assign(window.lgvi, { end, go, play, theme, camera, draw: () => picture.draw(state.t), time: () => state.t, places: (t) => picture.places(t) });
   return true;
 }
 
@@ -100,7 +100,7 @@ function chartsOf(run, motions) {
   const angles = { title: "joint angles", unit: "degrees", log: false };
   if (moving.length > FEW) return [...charts, { ...angles, map: true, motion: motions[0], rows: moving.map((i) => motions[0].angle(i)), lines: [] }];
   const all = motions.flatMap((motion, m) => moving.map((i, k) => ({
-    name: m ? "" : run.bodies[i].joint.name, motion, data: motion.angle(i), colour: LINES[k % LINES.length], dashed: m > 0,
+    name: m ? motion.name : run.bodies[i].joint.name, motion, data: motion.angle(i), colour: LINES[k % LINES.length], dashed: m > 0,
   })));
   return [...charts, { ...angles, lines: all }];
 }

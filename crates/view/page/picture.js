@@ -11,10 +11,10 @@ class Picture {
     this.solid = new Program(gl, SOLID);
     this.way = new Program(gl, WAY);
     this.ground = new Program(gl, GROUND);
-    const many = motions[0].bodies.length > 60;
+    const count = motions[0].bodies.length, fine = count > 60 ? [10, 16] : count > 12 ? [20, 32] : [28, 48];
     this.parts = motions.map((motion, m) => {
       const { bodies, fittings } = solids(motion.bodies, m > 0);
-      return [this.batch(bodies, many ? [10, 16] : [24, 40]), this.batch(fittings, many ? [4, 8] : [10, 16])];
+      return [this.batch(bodies, fine), this.batch(fittings, count > 60 ? [4, 8] : [10, 16])];
     });
     const square = new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]);
     this.plane = this.ground.arrange([square, false, ["corner", 2]]);
@@ -33,18 +33,16 @@ class Picture {
     return { list, instances, array, buffer: buffers[1], count: triangles.length };
   }
 
+  // Two triangles a piece: thousands of instances of two triangles are slow without a graphics card.
   wayOf(motion) {
-    const points = [];
-    for (let k = 0; k < motion.frames; k++) points.push(...motion.place.map((x) => x[k]), motion.t[k]);
-    const corners = new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]);
-    const made = this.way.arrange([corners, false, ["corner", 2]], [new Float32Array(points), true, ["from", 3], ["when", 1]]);
-    // The end of a piece is the beginning of the next one.
-    const gl = this.gl, place = gl.getAttribLocation(this.way.program, "to");
-    gl.bindBuffer(gl.ARRAY_BUFFER, made.buffers[1]);
-    gl.enableVertexAttribArray(place);
-    gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 16, 16);
-    gl.vertexAttribDivisor(place, 1);
-    return { array: made.array, count: motion.frames - 1 };
+    const corners = [[0, -1], [1, -1], [0, 1], [0, 1], [1, -1], [1, 1]];
+    const point = (k) => motion.place.map((x) => x[k]);
+    const numbers = new Float32Array((motion.frames - 1) * 6 * 9);
+    for (let k = 0; k + 1 < motion.frames; k++) {
+      corners.forEach((corner, c) => numbers.set([...corner, ...point(k), ...point(k + 1), motion.t[k]], (6 * k + c) * 9));
+    }
+    const { array } = this.way.arrange([numbers, false, ["corner", 2], ["from", 3], ["to", 3], ["when", 1]]);
+    return { array, count: 6 * (motion.frames - 1) };
   }
 
   // Puts the instances where a pose has them.
@@ -73,9 +71,11 @@ class Picture {
       if (pose) this.parts[m].forEach((part) => this.place(part, pose));
     });
     const ground = this.drawGround(view, paper);
-    const solid = { matrix: view.matrix, pixels, eye: view.eye };
+    // Over the left shoulder of who looks.
+    const light = unit(add(add(scale(view.right, -0.45), scale(view.up, 0.7)), scale(view.back, 0.6)));
+    const solid = { matrix: view.matrix, pixels, eye: view.eye, light };
     this.solid.set({ ...solid, rim: 0, ground, flat_colour: [...mix(paper, ink, 0.13), 1] });
-    parts.flat().forEach((part) => this.instances(part));
+    parts.forEach(([bodies]) => this.instances(bodies));
     gl.enable(gl.DEPTH_TEST);
     this.drawWays(view, t, pixels, paper);
     const wide = 1.3 * (canvas.width / canvas.clientWidth || 1);
@@ -97,8 +97,8 @@ class Picture {
   // Under everything: it hides nothing. Where a motion goes far down, the ground goes along.
   drawGround({ matrix, target }, paper) {
     const { gl, camera } = this;
-    const drop = camera.box[1][2] - camera.box[0][2] > 6 * camera.size;
-    const height = drop ? target[2] - 1.1 * camera.size : this.low;
+    const sinks = camera.follows && camera.box[1][2] - camera.box[0][2] > 3 * camera.size;
+    const height = sinks ? target[2] - 1.1 * camera.size : this.low;
     this.cell = round(camera.distance / 24);
     gl.disable(gl.DEPTH_TEST);
     gl.disable(gl.CULL_FACE);
@@ -116,17 +116,17 @@ class Picture {
       if (!this.shown[m]) return;
       this.way.set({ matrix, pixels, now, paper, width: 2.2 * devicePixelRatio, paint: rgb(m ? GHOST : HEAD) });
       gl.bindVertexArray(array);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+      gl.drawArrays(gl.TRIANGLES, 0, count);
     });
     gl.enable(gl.CULL_FACE);
   }
 
-  // Whether each body is in the picture, whole; for tests.
-  inView(t) {
+  // Where the bodies' centres are in the picture, from -1 to 1 across and up; what is behind the eye is nowhere.
+  places(t) {
     const { matrix } = this.camera.view(t);
     return this.motions.flatMap((motion) => motion.pose(t).x.map(([x, y, z]) => {
-      const clip = [0, 1, 3].map((row) => matrix[row] * x + matrix[4 + row] * y + matrix[8 + row] * z + matrix[12 + row]);
-      return clip[2] > 0 && Math.abs(clip[0]) <= clip[2] && Math.abs(clip[1]) <= clip[2];
+      const [a, b, w] = [0, 1, 3].map((row) => matrix[row] * x + matrix[4 + row] * y + matrix[8 + row] * z + matrix[12 + row]);
+      return w > 0 ? [a / w, b / w] : [Infinity, Infinity];
     }));
   }
 }

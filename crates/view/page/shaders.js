@@ -20,19 +20,19 @@ const SOLID = {
   fragment: `#version 300 es
     precision highp float;
     in vec3 normal; in vec3 place; in vec3 body; in vec4 paint;
-    uniform vec3 eye; uniform vec4 flat_colour; uniform float seam;
+    uniform vec3 eye; uniform vec3 light; uniform vec4 flat_colour; uniform float seam;
     out vec4 colour;
     void main() {
       // A ghost is a lattice of points, so that nothing need be sorted.
       if (paint.a < 0.99 && mod(floor(gl_FragCoord.x) + floor(gl_FragCoord.y), 2.0) > 0.5) discard;
       if (flat_colour.a > 0.0) { colour = flat_colour; return; }
-      vec3 n = normalize(normal), view = normalize(eye - place), light = normalize(vec3(-0.35, -0.45, 0.85));
+      vec3 n = normalize(normal), view = normalize(eye - place);
       float sky = 0.5 + 0.5 * n.z, sun = max(dot(n, light), 0.0);
       // Darker above than below, with a seam along the back: turns about the long axis are seen.
       vec3 skin = paint.rgb * mix(1.0, mix(1.14, 0.94, smoothstep(-0.25, 0.25, body.z)), seam);
       float aside = abs(body.y) / fwidth(body.y);
       if (body.z > 0.0) skin *= mix(1.0, mix(0.7, 1.0, smoothstep(0.6, 1.6, aside)), seam);
-      vec3 lit = skin * (0.46 + 0.26 * sky + 0.44 * sun);
+      vec3 lit = skin * (0.56 + 0.12 * sky + 0.46 * sun);
       float shine = pow(max(dot(n, normalize(light + view)), 0.0), 40.0);
       colour = vec4(lit + 0.16 * shine, 1.0);
     }`,

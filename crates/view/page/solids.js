@@ -15,7 +15,7 @@ function solids(bodies, isGhost) {
 // A ball, or a pin along the axis of a hinge, and rods to it where it lies outside of its bodies.
 function joint(bodies, i) {
   const body = bodies[i], parent = bodies[body.parent], { at_parent, at_child, axis } = body.joint;
-  const radius = 0.3 * Math.min(middle(body.axes), parent ? middle(parent.axes) : Infinity);
+  const radius = 0.26 * Math.min(middle(body.axes), parent ? middle(parent.axes) : Infinity);
   const parts = [];
   const rod = (on, at) => {
     if (norm(at.map((x, c) => x / bodies[on].axes[c])) <= 1.01) return;
@@ -24,8 +24,8 @@ function joint(bodies, i) {
   };
   rod(i, at_child);
   if (parent) rod(body.parent, at_parent);
-  // What hangs on the world has a wide, dark one.
-  const [size, length] = parent ? [1, axis ? 0.9 : 0] : [1.5, 2.2];
+  // What hangs on the world has a dark pin through it.
+  const [size, length] = parent ? [1, axis ? 0.9 : 0] : [0.8, 4.8];
   const turn = axis ? towards(axis) : ALONG_X;
   return [...parts, { body: i, at: at_child, turn, axes: Array(3).fill(size * radius), stretch: length * radius, colour: parent ? PALE : DARK }];
 }
