@@ -20,4 +20,4 @@ page beside scenes/fish-chain.toml 60 --beside dp54
 page swimming scenes/swim/fish.toml 30
 page swimming-eel scenes/swim/eel.toml 10
 python3 tools/page/shots.py "$shots" fish@0.3 eel@0.45 robot@0.4 arm@0.6 foil@0.55 star@0.63 beside@0.35 swimming-eel@0.5:dark
-python3 tools/page/film.py "$shots/swimming.html" docs/swimming-fish.webp 10 20
+python3 tools/page/film.py "$shots/swimming.html" docs/swimming-fish.webp 15 20

@@ -1,5 +1,6 @@
 //! The files of a run, each in the format that its name's ending tells.
 
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -52,6 +53,16 @@ impl Format {
     }
 }
 
+/// Where a file that may not be there is: its directory, whatever leads there, and its name.
+fn place_of(path: &Path) -> (Option<PathBuf>, Option<&OsStr>) {
+    let directory = match path.parent() {
+        Some(parent) if parent.as_os_str().is_empty() => Path::new("."),
+        Some(parent) => parent,
+        None => path,
+    };
+    (directory.canonicalize().ok(), path.file_name())
+}
+
 /// What is written beside what the frames say.
 #[derive(Clone, Copy)]
 pub struct Extras {
@@ -74,7 +85,9 @@ impl Outputs {
         for path in paths {
             let file = output::begin(path, scene)?;
             let format = Format::of(path)?;
-            let is_twice = |(other, ..): &(PathBuf, _, _)| other == path || is_same(other, path);
+            let is_twice = |(other, ..): &(PathBuf, _, _)| {
+                place_of(other) == place_of(path) || is_same(other, path)
+            };
             if files.iter().any(is_twice) {
                 return Err(CliError::OutputTwice(path.clone()));
             }

@@ -7,8 +7,8 @@ from PIL import Image
 
 from browser import Browser, Page
 
-PICTURES = 20  # a second
-SIZE = (720, 400)
+PICTURES = 15  # a second
+SIZE = (560, 320)
 
 page_file, film, start, end = sys.argv[1], sys.argv[2], float(sys.argv[3]), float(sys.argv[4])
 with Browser() as browser:
@@ -20,4 +20,4 @@ with Browser() as browser:
         page.run(f"lgvi.go({start + k / PICTURES})")
         page.frames(2)
         pictures.append(Image.open(io.BytesIO(page.picture("#stage"))).convert("RGB"))
-pictures[0].save(film, save_all=True, append_images=pictures[1:], duration=1000 // PICTURES, loop=0, quality=60, method=6)
+pictures[0].save(film, save_all=True, append_images=pictures[1:], duration=1000 // PICTURES, loop=0, quality=60, method=4)

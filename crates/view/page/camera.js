@@ -2,7 +2,7 @@
 
 const FIELD = 0.5; // rad, from bottom to top
 const MARGIN = 0.86; // of the picture is for the bodies
-const MANY = 150; // frames that are looked at
+const LOOKS = 150; // frames that are looked at
 
 class Camera {
   constructor(motions, hasWeight) {
@@ -64,7 +64,7 @@ class Camera {
     const low = this.hasWeight ? [0.2, 0.35, 0.5] : [0.35, 0.5, 0.7, 0.9];
     const all = low.flatMap((elevation) => Array.from({ length: 24 }, (_, k) => ({ azimuth: -Math.PI + (k * Math.PI) / 12, elevation })));
     const kept = this.samples;
-    this.samples = kept.filter((_, k) => k % Math.ceil(kept.length / 24) === 0);
+    this.samples = some(kept, 24).map(({ t, x, extents }) => ({ t, x: some(x, 40), extents: some(extents, 40) }));
     const score = ({ azimuth, elevation }) => {
       const { right, up } = this.axes(azimuth, elevation);
       const spread = [0, 0, 0];
@@ -114,7 +114,7 @@ class Camera {
 
 // A few times of a motion, with the bodies' places and how far each reaches in a direction.
 function sampled(motion) {
-  const count = Math.min(MANY, motion.frames);
+  const count = Math.min(LOOKS, motion.frames);
   return Array.from({ length: count }, (_, j) => {
     const k = Math.round((j * (motion.frames - 1)) / Math.max(1, count - 1));
     const { q, x } = motion.poseAt(k, 0);
@@ -129,6 +129,7 @@ function sampled(motion) {
   });
 }
 
+const some = (all, most) => all.filter((_, k) => k % Math.ceil(all.length / most) === 0);
 const UNITS = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
 function hull(samples) {

@@ -1,6 +1,7 @@
 // The picture: ground and shadows, the ways of the heads, joints and bodies with outlines.
 
 const NUMBERS = 15; // of an instance
+const MANY = 60; // bodies, beyond which they are drawn more coarsely
 const LAYOUT = [["centre", 3], ["attitude", 4], ["axes", 3], ["stretch", 1], ["colour", 4]];
 
 class Picture {
@@ -11,10 +12,10 @@ class Picture {
     this.solid = new Program(gl, SOLID);
     this.way = new Program(gl, WAY);
     this.ground = new Program(gl, GROUND);
-    const count = motions[0].bodies.length, fine = count > 60 ? [10, 16] : count > 12 ? [20, 32] : [28, 48];
+    const count = motions[0].bodies.length, fine = count > MANY ? [10, 16] : count > 12 ? [20, 32] : [28, 48];
     this.parts = motions.map((motion, m) => {
       const { bodies, fittings } = solids(motion.bodies, m > 0);
-      return [this.batch(bodies, fine), this.batch(fittings, count > 60 ? [4, 8] : [10, 16])];
+      return [this.batch(bodies, fine), this.batch(fittings, count > MANY ? [4, 8] : [10, 16])];
     });
     const square = new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]);
     this.plane = this.ground.arrange([square, false, ["corner", 2]]);
@@ -78,15 +79,23 @@ class Picture {
     parts.forEach(([bodies]) => this.instances(bodies));
     gl.enable(gl.DEPTH_TEST);
     this.drawWays(view, t, pixels, paper);
-    const wide = 1.3 * (canvas.width / canvas.clientWidth || 1);
-    this.solid.set({ ...solid, rim: wide, ground: -2e30, flat_colour: [0.05, 0.07, 0.09, 1] });
+    this.solid.set({ ...solid, rim: this.rim(), ground: -2e30, flat_colour: [0.05, 0.07, 0.09, 1] });
     gl.cullFace(gl.FRONT);
-    parts.flat().forEach((part) => this.instances(part));
+    const outlined = parts.flatMap(([bodies, fittings]) => (bodies.list.length > MANY ? [bodies] : [bodies, fittings]));
+    outlined.forEach((part) => this.instances(part));
     gl.cullFace(gl.BACK);
     parts.forEach((both) => both.forEach((part, isFitting) => {
       this.solid.set({ rim: 0, flat_colour: [0, 0, 0, 0], seam: isFitting ? 0 : 1 });
       this.instances(part);
     }));
+  }
+
+  // An outline is thin against what it is of, pixels.
+  rim() {
+    const { canvas, camera, motions } = this;
+    const sizes = motions[0].bodies.map(({ axes }) => middle(axes)).sort((a, b) => a - b);
+    const pixels = (sizes[sizes.length >> 1] / camera.distance) * (canvas.height / 2 / Math.tan(FIELD / 2));
+    return clamp(0.15 * pixels, 0.3, 1.3 * (canvas.width / canvas.clientWidth || 1));
   }
 
   instances({ array, count, list }) {

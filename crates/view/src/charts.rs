@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use crate::motion::Motion;
 use crate::pack::{Pack, range};
-use crate::page::Motion;
 use crate::recording::Still;
 
 /// Steps of a curve from its lowest to its highest point.

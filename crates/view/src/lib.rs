@@ -29,6 +29,7 @@ mod arrays;
 mod charts;
 mod colours;
 mod gltf;
+mod motion;
 mod npz;
 mod pack;
 mod page;
@@ -37,6 +38,7 @@ mod solid;
 
 pub use arrays::Arrays;
 pub use gltf::glb;
+pub use motion::Motion;
 pub use npz::NpzError;
-pub use page::{Motion, page};
+pub use page::page;
 pub use recording::{MOST_FRAMES, Recording};

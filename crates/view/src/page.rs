@@ -4,8 +4,8 @@ use articulated_fluid::{DriveKind, Scene};
 use serde::Serialize;
 
 use crate::charts::{Chart, charts};
+use crate::motion::Motion;
 use crate::pack::{Group, Pack, range, smallest_three};
-use crate::recording::Recording;
 use crate::solid::{Solid, solids};
 
 const PAGE: &str = include_str!("../page/page.html");
@@ -31,17 +31,6 @@ pub(crate) const ATTITUDE_LEVELS: u32 = 1 << 15;
 /// Steps of the head's way, the longest of its three sides.
 const PLACE_LEVELS: u32 = 1 << 20;
 const TIME_LEVELS: u32 = 1 << 24;
-
-/// A motion on a page.
-#[derive(Clone, Copy, Debug)]
-pub struct Motion<'a> {
-    /// The method's name.
-    pub name: &'a str,
-    /// What is told of it, in a line.
-    pub facts: &'a str,
-    /// What was seen of it.
-    pub recording: &'a Recording,
-}
 
 /// What the page's script reads.
 #[derive(Serialize)]
