@@ -2,7 +2,7 @@
 
 use articulated_fluid::Scene;
 use sim::number::three_digits;
-use sim::{Choice, Frame, Method, Plan, Schedule, Simulation};
+use sim::{Choice, Method, Plan, Schedule, Simulation};
 #[cfg(feature = "chart")]
 use study::{baseline::Baseline, contender::Contender};
 use view::Recording;
@@ -111,7 +111,7 @@ mod explicit {
     use std::fmt::Display;
 
     use sim::number::decimal;
-    use sim::{Clock, Due, Run};
+    use sim::{Clock, Due, Frame, Run};
     use study::baseline::Tolerance;
 
     use super::*;
