@@ -61,8 +61,8 @@ class Camera {
 
   // The side that shows most: the bodies' places are spread widely over the picture, and large.
   bestDirection() {
-    const low = this.hasWeight ? [0.2, 0.35, 0.5] : [0.35, 0.5, 0.7, 0.9];
-    const all = low.flatMap((elevation) => Array.from({ length: 24 }, (_, k) => ({ azimuth: -Math.PI + (k * Math.PI) / 12, elevation })));
+    const heights = this.hasWeight ? [0.15, 0.3] : [0.3, 0.45, 0.6];
+    const all = heights.flatMap((elevation) => Array.from({ length: 24 }, (_, k) => ({ azimuth: -Math.PI + (k * Math.PI) / 12, elevation })));
     const kept = this.samples;
     this.samples = some(kept, 24).map(({ t, x, extents }) => ({ t, x: some(x, 40), extents: some(extents, 40) }));
     const score = ({ azimuth, elevation }) => {
