@@ -13,7 +13,7 @@ use super::settings::Settings;
 
 /// Simulate a scene, and open the run as a moving picture in the browser.
 ///
-/// Writes one page, which needs no network, beside where you are: SCENE.html.
+/// Writes one page, which needs no network, into the current directory: SCENE.html.
 #[derive(clap::Args)]
 #[command(after_long_help = AFTER_LONG_HELP)]
 pub struct Args {
@@ -58,7 +58,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The scene's name with another ending, in the directory where one is.
+/// The scene's name with another ending, in the current directory.
 fn page_of(scene: Option<&Path>) -> PathBuf {
     let stem = scene.and_then(Path::file_stem);
     let mut name = stem.unwrap_or("fish-chain".as_ref()).to_owned();

@@ -96,6 +96,39 @@ fn what_is_no_name_of_a_file_has_one_exit_code() {
     }
 }
 
+/// With a browser, and without: the page is there in any case.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_page_is_opened_where_there_is_a_browser() {
+    use std::os::unix::fs::PermissionsExt;
+    let directory = directory();
+    let path = directory.path();
+    let browsers = path.join("bin");
+    fs::create_dir(&browsers).unwrap();
+    let view = || {
+        let mut view = crate::command(path, &["view", "--until", "0.1"]);
+        view.env("PATH", &browsers).output().unwrap()
+    };
+    let output = view();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stdout), "written: fish-chain.html\n");
+    assert!(text(&output.stderr).contains("open the page yourself"));
+    assert_eq!(files(path), ["bin", "fish-chain.html"]);
+    let opener = browsers.join("xdg-open");
+    fs::write(&opener, "#!/bin/sh\necho \"$1\" > opened\n").unwrap();
+    fs::set_permissions(&opener, fs::Permissions::from_mode(0o755)).unwrap();
+    assert_eq!(text(&view().stderr), "");
+    // The browser goes on by itself.
+    let opened = || fs::read_to_string(path.join("opened")).unwrap_or_default();
+    for _ in 0..500 {
+        if opened().ends_with('\n') {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    assert_eq!(opened(), "fish-chain.html\n");
+}
+
 #[cfg(target_os = "linux")]
 mod full {
     use std::fs::{File, OpenOptions};
