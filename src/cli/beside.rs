@@ -1,13 +1,14 @@
 //! The same scene by a second method, for the eye.
 
 use articulated_fluid::Scene;
-use sim::number::three_digits;
+use sim::number::{scientific, three_digits};
 use sim::{Choice, Method, Plan, Schedule, Simulation};
 #[cfg(feature = "chart")]
 use study::{baseline::Baseline, contender::Contender};
 use view::Recording;
 
 use super::error::CliError;
+use super::scene::Loaded;
 
 /// A second method.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +54,15 @@ impl Beside {
             Self::Structure(method) => method.name(),
             #[cfg(feature = "chart")]
             Self::Explicit(baseline) => baseline.name,
+        }
+    }
+
+    /// Refuses what an explicit method cannot do, before a run begins.
+    pub fn check(self, loaded: &Loaded, until: f64) -> Result<(), CliError> {
+        match self {
+            Self::Structure(_) => Ok(()),
+            #[cfg(feature = "chart")]
+            Self::Explicit(_) => loaded.check_methods(until),
         }
     }
 
@@ -102,7 +112,7 @@ pub fn facts(simulation: &Simulation) -> String {
         "order {}, steps of {} s, {what} within {} J",
         report.method_order,
         three_digits(report.step_seconds),
-        three_digits(report.energy_error_max_joules)
+        scientific(report.energy_error_max_joules)
     )
 }
 

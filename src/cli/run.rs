@@ -14,7 +14,7 @@ use super::interrupt::Interrupt;
 use super::outputs::{Extras, Format, Outputs, Writers};
 use super::print;
 use super::progress;
-use super::scene::load;
+use super::scene::{Loaded, load};
 use super::settings::Settings;
 use super::summary::{Origin, Summary};
 
@@ -61,12 +61,14 @@ impl Args {
         }
     }
 
-    /// A second method needs a page.
-    fn check_beside(&self) -> Result<(), CliError> {
+    /// A second method needs a page, and something to solve.
+    fn check_beside(&self, loaded: &Loaded) -> Result<(), CliError> {
         let is_page = |path: &PathBuf| matches!(Format::of(path), Ok(Format::Page));
         match self.beside.is_some() && !self.out.iter().any(is_page) {
             true => Err(CliError::BesideWithoutPage),
-            false => Ok(()),
+            false => self
+                .beside
+                .map_or(Ok(()), |beside| beside.check(loaded, self.settings.until)),
         }
     }
 }
@@ -158,7 +160,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let (settings, scene) = (&args.settings, args.settings.scene.as_deref());
     let loaded = load(scene)?;
     loaded.warn_of_overlaps();
-    args.check_beside()?;
+    args.check_beside(&loaded)?;
     let simulation = settings.simulation(&loaded, args.schedule(), args.estimate)?;
     // Before there is a file that an early signal would leave behind.
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;

@@ -36,6 +36,9 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let loaded = load(scene)?;
     loaded.warn_of_overlaps();
     let until = args.settings.until;
+    if let Some(beside) = args.beside {
+        beside.check(&loaded, until)?;
+    }
     let simulation = args.settings.simulation(&loaded, seen(until), false)?;
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
     let page = page_of(scene);

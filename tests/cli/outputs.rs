@@ -32,6 +32,33 @@ fn a_second_method_needs_a_page() {
     );
 }
 
+/// Of what moves as told there is nothing that a method could do better or worse.
+#[cfg(feature = "chart")]
+#[test]
+fn a_second_method_needs_something_to_solve() {
+    let directory = directory();
+    let scene = "
+        fluid.density = 1000
+        body = [{ name = 'a', semi_axes = [1, 0.3, 0.3] }]
+        [[joint]]
+        parent = 'world'
+        child = 'a'
+        at_parent = [0, 0, 0]
+        at_child = [0.5, 0, 0]
+        type = 'hinge'
+        axis = [0, 0, 1]
+        motion = { amplitude = 0.5, frequency = 1 }
+    ";
+    fs::write(directory.path().join("s.toml"), scene).unwrap();
+    let args = [
+        "run", "s.toml", "--until", "1", "--beside", "dp54", "--out", "a.html",
+    ];
+    let output = lgvi(directory.path(), &args);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("all bodies move as told"));
+    assert_eq!(files(directory.path()), ["s.toml"]);
+}
+
 /// Each by its ending, from one run, with as many samples.
 #[test]
 fn a_run_is_written_in_several_formats_at_once() {

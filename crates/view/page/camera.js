@@ -9,7 +9,7 @@ class Camera {
     this.motions = motions;
     this.hasWeight = hasWeight;
     this.aspect = 1.6;
-    this.samples = motions.flatMap((motion) => sampled(motion));
+    this.samples = seen(motions.map(sampled));
     this.box = hull(this.samples);
     this.size = Math.max(...this.samples.map((sample) => sample.radius), 1e-9);
     this.follows = norm(sub(this.box[1], this.box[0])) / 2 > 2.2 * this.size;
@@ -127,6 +127,12 @@ function sampled(motion) {
     const centre = scale(add(low, high), 0.5);
     return { t: motion.t[k], x, extents, low, high, centre, radius: norm(sub(high, low)) / 2 };
   });
+}
+
+// The first motion, and the others unless they run away from it.
+function seen([first, ...others]) {
+  const size = (samples) => norm(sub(...hull(samples)));
+  return [first, ...others.filter((samples) => size([...first, ...samples]) <= 3 * size(first))].flat();
 }
 
 const some = (all, most) => all.filter((_, k) => k % Math.ceil(all.length / most) === 0);

@@ -1,7 +1,7 @@
 //! What is kept of a run for the eye: as many frames as a picture needs.
 
 use articulated_fluid::ArticulatedBody;
-use lie::{SO3, Vec3};
+use lie::Vec3;
 use sim::{Frame, Sample, Watch};
 
 /// The most frames of a recording; at least half as many are kept where there are more.
@@ -104,12 +104,21 @@ impl Still {
                 .bodies
                 .attitudes
                 .iter()
-                .map(SO3::to_quaternion)
+                .map(|r| unit(r.to_quaternion()))
                 .collect(),
             sample: frame.sample,
             work: frame.drives.iter().map(|drive| drive.work).collect(),
             departures: watch.departures(&frame.sample),
         }
+    }
+}
+
+/// What a method leaves of a rotation that does not keep the group, made one.
+fn unit(q: [f64; 4]) -> [f64; 4] {
+    let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    match norm.is_normal() {
+        true => q.map(|x| x / norm),
+        false => [1.0, 0.0, 0.0, 0.0],
     }
 }
 
