@@ -8,17 +8,18 @@ made=${CARGO_TARGET_DIR:-target}/page
 mkdir -p "$made"
 
 if ! command -v chromium > /dev/null; then
-  # shellcheck disable=SC2046
-  $([ "$(id -u)" = 0 ] || echo sudo) apt-get update -qq
-  $([ "$(id -u)" = 0 ] || echo sudo) apt-get install -y -qq --no-install-recommends chromium > /dev/null
+  root=$([ "$(id -u)" = 0 ] || echo sudo)
+  $root apt-get update -qq
+  $root apt-get install -y -qq --no-install-recommends chromium > /dev/null
 fi
 if [ ! -d "$made/node_modules/gltf-validator" ]; then
   npm install --silent --no-audit --no-fund --prefix "$made" gltf-validator@2.0.0-dev.3.10
 fi
-if [ ! -x "$made/python/bin/python" ]; then
-  python3 -m venv "$made/python"
-  "$made/python/bin/pip" install --quiet numpy==2.*
+python=python3
+if ! python3 -c 'import numpy' 2> /dev/null; then
+  python=$made/python/bin/python
+  [ -x "$python" ] || python3 -m venv "$made/python"
+  "$python" -m pip install --quiet 'numpy==2.*'
 fi
-python=$made/python/bin/python
 "$python" tools/page/check.py "$command" "$made"
 NODE_PATH="$made/node_modules" node tools/page/validate.js "$made"/*.glb
