@@ -13,6 +13,7 @@ use sim::number::decimal;
 #[cfg(feature = "chart")]
 use study::{stability::ParameterError, work_precision::UnknownReference};
 use thiserror::Error;
+use view::NpzError;
 
 /// The exit code of a run or a write that failed.
 const FAILURE: u8 = 1;
@@ -37,9 +38,18 @@ pub enum CliError {
     )]
     OutputIsDash,
     #[error(
-        "--out {}: a trajectory is a CSV table, and the name says another format; give a name that ends in .csv", .0.display()
+        "--out {}: the name's ending tells no format; give a name that ends in .csv, .html, .glb or .npz", .0.display()
     )]
     OutputFormat(PathBuf),
+    #[error("--out {} is given twice; give each file a name of its own", .0.display())]
+    OutputTwice(PathBuf),
+    #[error("--beside needs a page to be shown on; give --out a name that ends in .html")]
+    BesideWithoutPage,
+    #[cfg(feature = "chart")]
+    #[error("--beside: {0}")]
+    Beside(String),
+    #[error("--out {}: {source}", path.display())]
+    Npz { path: PathBuf, source: NpzError },
     #[error("--out {}: {source}", path.display())]
     Output { path: PathBuf, source: FileError },
     #[error("interrupted at t = {} s; nothing was written", decimal(*t))]
@@ -101,7 +111,8 @@ impl CliError {
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
             Self::Scene(_) | Self::Model { .. } => USAGE,
-            Self::OutputIsScene(_) | Self::OutputIsDash | Self::OutputFormat(_) => USAGE,
+            Self::OutputIsScene(_) | Self::OutputIsDash => USAGE,
+            Self::OutputFormat(_) | Self::OutputTwice(_) | Self::BesideWithoutPage => USAGE,
             Self::Output { source, .. } if source.is_of_the_path() => USAGE,
             Self::Sim(error) => match error {
                 SimError::Step { .. }

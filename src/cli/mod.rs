@@ -1,6 +1,7 @@
 //! The command line: a module for each command, and what they share.
 
 mod args;
+mod beside;
 #[cfg(feature = "chart")]
 mod chart;
 #[cfg(feature = "chart")]
@@ -12,13 +13,16 @@ mod inspect;
 mod interrupt;
 mod methods;
 mod output;
+mod outputs;
 mod print;
 mod progress;
 mod run;
 mod scene;
+mod settings;
 #[cfg(feature = "chart")]
 mod stability;
 mod summary;
+mod view;
 
 use std::process::ExitCode;
 
@@ -41,6 +45,7 @@ Examples:
   lgvi run                              the built-in scene for 100 s
   lgvi run --until 10 --out fish.csv    10 s of it, with the trajectory
   lgvi run boat.toml --step 0.01        a scene of one's own
+  lgvi view boat.toml                   its moving picture, in the browser
   lgvi run --method gauss-4             another integrator, at its own default step{EXPERIMENTS}
   lgvi inspect boat.toml                what it is modelled with, and why
   lgvi methods                          the integrators: orders, steps, costs
@@ -62,6 +67,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    View(view::Args),
     #[cfg(feature = "chart")]
     Chart(chart::Args),
     #[cfg(feature = "chart")]
@@ -74,6 +80,7 @@ impl Command {
     fn execute(&self) -> Result<(), CliError> {
         match self {
             Self::Run(args) => run::execute(args),
+            Self::View(args) => view::execute(args),
             #[cfg(feature = "chart")]
             Self::Chart(args) => chart::execute(args),
             #[cfg(feature = "chart")]

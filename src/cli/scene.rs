@@ -47,6 +47,11 @@ impl Loaded {
         }
     }
 
+    /// What it shows: its title, or the file's name.
+    pub fn title(&self) -> &str {
+        self.scene.title.as_deref().unwrap_or(&self.file)
+    }
+
     /// Whether it is the paper's scene, from a file or built in.
     pub fn is_papers(&self) -> bool {
         let papers = Scene::parse(BUILT_IN, BUILT_IN_NAME);

@@ -1,12 +1,13 @@
 //! What a run reports at its end, as text and as JSON.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use serde::Serialize;
 use sim::method::Family;
 use sim::number::{decimal, scientific};
 use sim::{DriveReport, Report, Simulation};
 
+use super::outputs::Format;
 use super::print::one_line;
 
 /// The report of a run, and what only the command knows of it.
@@ -16,6 +17,10 @@ pub struct Summary<'a> {
     #[serde(flatten)]
     pub report: Report,
     pub csv: Option<String>,
+    /// All files, the table among them.
+    pub written: Vec<String>,
+    #[serde(skip)]
+    pub files: &'a [PathBuf],
     #[serde(skip)]
     pub family: Family,
     #[serde(skip)]
@@ -41,13 +46,18 @@ impl<'a> Summary<'a> {
     pub fn new(
         simulation: &Simulation,
         scene: &'a str,
-        csv: Option<&Path>,
+        files: &'a [PathBuf],
         origin: Origin,
     ) -> Self {
+        let name = |path: &PathBuf| path.display().to_string();
+        let is_table = |path: &&PathBuf| matches!(Format::of(path), Ok(Format::Csv));
+        let table = files.iter().find(is_table);
         Self {
             scene,
             report: simulation.report(),
-            csv: csv.map(|path| path.display().to_string()),
+            csv: table.map(name),
+            written: files.iter().map(name).collect(),
+            files,
             family: simulation.method().family(),
             step_is_adjusted: simulation.clock().is_adjusted(),
             step_of_method: simulation.method().default_step(),
@@ -99,8 +109,8 @@ impl<'a> Summary<'a> {
             ("samples", self.samples()),
         ]);
         rows.push(self.error());
-        if let Some(path) = &self.csv {
-            rows.push(("CSV", one_line(path)));
+        for (path, name) in self.files.iter().zip(&self.written) {
+            rows.push((Format::of(path).map_or("", Format::label), one_line(name)));
         }
         rows
     }

@@ -92,13 +92,12 @@ impl Watch {
 
     /// Takes another sample into account.
     pub fn add(&mut self, sample: &Sample) {
-        let change = sample.balance() - self.start.balance();
+        let [change, linear, angular] = self.departures(sample);
         self.count += 1;
         self.energy = self.energy.max(change.abs());
         self.kinetic = self.kinetic.max(sample.kinetic);
-        let (symmetry, start) = (&self.symmetry, &self.start);
-        self.linear = self.linear.max(symmetry.linear(start, sample));
-        self.angular = self.angular.max(symmetry.angular(start, sample));
+        self.linear = self.linear.max(linear);
+        self.angular = self.angular.max(angular);
         self.orthogonality = self.orthogonality.max(sample.orthogonality);
         self.trend.add(sample.t, change);
     }
@@ -108,6 +107,17 @@ impl Watch {
     pub fn with_kinetic(mut self, kinetic: f64) -> Self {
         self.kinetic = self.kinetic.max(kinetic);
         self
+    }
+
+    /// How far a sample is from what the motion keeps since the start: the energy's balance, with its sign, J, the linear momentum,
+    /// kg m/s, and the angular one, kg m²/s.
+    pub fn departures(&self, sample: &Sample) -> [f64; 3] {
+        let (symmetry, start) = (&self.symmetry, &self.start);
+        [
+            sample.balance() - start.balance(),
+            symmetry.linear(start, sample),
+            symmetry.angular(start, sample),
+        ]
     }
 
     /// The number of samples.
