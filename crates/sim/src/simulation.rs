@@ -230,21 +230,65 @@ impl Simulation {
             return Ok(None);
         };
         let due = self.plan.schedule.due(self.clock(), number);
-        match self.go_to(&due) {
-            Ok(None) => self.next = Some(number),
-            Ok(Some(frame)) => {
+        let frame = self.towards(&due)?;
+        self.next = match &frame {
+            None => Some(number),
+            Some(_) => (due.steps < self.clock().steps()).then_some(number + 1),
+        };
+        Ok(frame)
+    }
+
+    /// Goes on to the frame at the time `t`, whatever the schedule, or a [few](CHUNK) steps towards it; `None` where it is not there yet.
+    ///
+    /// Inside a step the frame is one by a shorter step of the method. Times must increase from frame to frame.
+    ///
+    /// ```
+    /// use articulated_fluid::{Scene, scene};
+    /// use sim::{Plan, Simulation};
+    ///
+    /// let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
+    /// let mut simulation = Simulation::new(&scene, &Plan { until: 1.0, ..Plan::default() })?;
+    /// for t in [0.0, 0.3333, 1.0] {
+    ///     let frame = loop {
+    ///         if let Some(frame) = simulation.advance_to(t)? {
+    ///             break frame;
+    ///         }
+    ///     };
+    ///     assert_eq!(frame.t(), t);
+    /// }
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance); [`SimError::Outside`] of a time before the last step, or after the end.
+    pub fn advance_to(&mut self, t: f64) -> Result<Option<Frame>, SimError> {
+        let (from, to) = (self.state().t, self.clock().until());
+        let due = Due::at(self.clock(), t);
+        if !(t >= 0.0 && t <= to && due.steps >= self.steps()) {
+            return Err(SimError::Outside { t, from, to });
+        }
+        match self.first.take() {
+            Some(first) if t == 0.0 => {
                 self.frames += 1;
-                self.next = (due.steps < self.clock().steps()).then_some(number + 1);
-                return Ok(Some(frame));
+                Ok(Some(first))
             }
-            // The same frame by shorter steps.
+            _ => self.towards(&due),
+        }
+    }
+
+    /// A frame, or a few steps towards it: by shorter ones where a default step is refused.
+    fn towards(&mut self, due: &Due) -> Result<Option<Frame>, SimError> {
+        match self.go_to(due) {
+            Ok(frame) => {
+                self.frames += u64::from(frame.is_some());
+                Ok(frame)
+            }
             Err(SimError::Step { .. }) if self.may_shorten() => {
                 self.shorten();
-                self.next = Some(number);
+                Ok(None)
             }
-            Err(error) => return Err(error),
+            Err(error) => Err(error),
         }
-        Ok(None)
     }
 
     /// A few steps towards a frame.
