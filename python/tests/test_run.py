@@ -22,7 +22,7 @@ def csv_of(command, scene, tmp_path, *arguments):
 
 
 @pytest.mark.parametrize("file", ["fish-chain", "planar-fish", "swim/eel", "loads/arm", "loads/vehicle"])
-@pytest.mark.parametrize("method, step", [("gauss-8", 0.1), ("composition-2", 0.01)])
+@pytest.mark.parametrize("method, step", [("gauss-4", 0.05), ("composition-2", 0.01)])
 def test_the_numbers_are_those_of_the_command_bit_for_bit(command, scenes, tmp_path, file, method, step):
     path = scenes / f"{file}.toml"
     names, table = csv_of(

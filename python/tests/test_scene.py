@@ -44,7 +44,7 @@ def test_replace_changes_the_values_and_nothing_else(scene):
 
 
 def test_replace_takes_arrays_and_dictionaries_and_names_with_dots(tmp_path):
-    (tmp_path / "stroke.csv").write_text("t,angle\n0,0\n0.5,0.3\n1,0\n")
+    (tmp_path / "stroke.csv").write_text("t,angle\n0,0\n0.25,0.2\n0.5,0.3\n1,0\n")
     scene = lgvi.Scene.parse(STROKE, tmp_path)
     moved = scene.replace({
         "start.position": np.array([1.0, 2.0, 3.0]),
