@@ -30,6 +30,16 @@ class SceneError(_WithFields, ValueError):
     key: str | None = None
 
 
+class TraceError(_WithFields, TypeError):
+    """A function does with the numbers that it is recorded over what has no value yet: it branches, or asks for a float.
+
+    ``file`` and ``line`` tell where.
+    """
+
+    file: str = "?"
+    line: int = 0
+
+
 class StepError(_WithFields, RuntimeError):
     """A step was refused: what is asked for has no solution that the solver finds.
 

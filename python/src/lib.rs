@@ -6,6 +6,7 @@ mod errors;
 mod replace;
 mod run;
 mod scene;
+mod system;
 
 /// What `lgvi` is made of; use `lgvi` itself.
 #[pyo3::pymodule]
@@ -16,4 +17,6 @@ mod _lgvi {
     use crate::run::methods;
     #[pymodule_export]
     use crate::scene::NativeScene;
+    #[pymodule_export]
+    use crate::system::{Comparison, NativeFormula, NativeRecording, NativeSystem, Tracer, exp};
 }

@@ -154,10 +154,10 @@ def test_memory_stays_flat_over_a_thousand_runs(scene):
             return int(file.read().split()[1]) * 4096
 
     for _ in range(100):
-        scene.simulate(1)
+        scene.simulate(1, step=0.25)
     before = resident()
     for _ in range(1000):
-        scene.simulate(1)
+        scene.simulate(1, step=0.25)
     # A run keeps 10 kB of numbers: a leak of them would be 10 MB.
     assert resident() - before < 2e6
 
