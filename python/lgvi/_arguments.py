@@ -60,7 +60,14 @@ def times(t: Any) -> tuple[float, list[float] | None]:
 
 
 def plan(
-    t: Any, method: str | None, step: float | None, accuracy: float | None, every: int, full: bool, estimate: bool
+    t: Any,
+    method: str | None,
+    step: float | None,
+    accuracy: float | None,
+    every: int,
+    full: bool,
+    estimate: bool,
+    exact: bool,
 ) -> tuple[Any, ...]:
     """What the native half is given."""
     if accuracy is not None and (method is not None or step is not None):
@@ -79,6 +86,7 @@ def plan(
         count(every, "every, the steps between frames,"),
         bool(full),
         bool(estimate),
+        bool(exact),
     )
 
 

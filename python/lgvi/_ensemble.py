@@ -84,13 +84,14 @@ def ensemble(
     *,
     every: int = 1,
     full: bool = False,
+    exact: bool = False,
     workers: int | None = None,
     progress: Progress = None,
 ) -> Ensemble:
     """Run many scenes on all cores: the results are those of ``scene.simulate`` for each, bit for bit.
 
     scenes    any number of scenes, of equal or different shape
-    t, method, step, accuracy, every, full
+    t, method, step, accuracy, every, full, exact
               as in ``Scene.simulate``. An array for t keeps only these frames, and so saves memory.
     workers   threads; as many as there are cores unless given. The results do not depend on it.
     progress  True for a line on stderr, or a function that is called with how many runs are done.
@@ -108,7 +109,7 @@ def ensemble(
     for i, scene in enumerate(scenes):
         if not isinstance(scene, Scene):
             raise TypeError(f"scenes[{i}] is {type(scene).__name__}; expected a lgvi.Scene")
-    arguments = plan(t, method, step, accuracy, every, full, False)
+    arguments = plan(t, method, step, accuracy, every, full, False, exact)
     threads = _cores() if workers is None else count(workers, "workers, a number of threads,")
     natives = [scene._native for scene in scenes]
     rows = _ensemble(natives, arguments, threads, reporter(progress, len(scenes), "runs"))

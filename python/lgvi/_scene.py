@@ -90,13 +90,14 @@ class Scene:
         every: int = 1,
         full: bool = False,
         estimate: bool = False,
+        exact: bool = False,
         progress: Progress = None,
     ) -> Run:
         """Run the scene from t = 0, and give what was seen as arrays.
 
         t         a number: the time to run to, s, with a frame at every step.
                   An array: the times of the frames, s, increasing; the last one is the end. Frames inside a
-                  step are computed by a shorter step of the method, so that they are as exact as the run.
+                  step of gauss-S are interpolated between its stages, to O(h^(S+1)) in the step h: see ``exact``.
         method    a name of ``lgvi.methods()``; "gauss-8", of order 16, unless given.
                   gauss-S has S stages and order 2S, composition-P the order P, lgvi the order 1.
         step      the longest step to take, s. Unless given, that of the method, doubled or halved as a rough run
@@ -106,6 +107,8 @@ class Scene:
         every     steps between frames; t = 0 and the end are always there.
         full      takes no reduction: all coordinates are unknowns. The motion is the same.
         estimate  lets two runs in longer steps go along, which estimate the trajectory's error in the report.
+        exact     frames inside a step are computed by a shorter step of the method, so that they are as exact as
+                  the run; each costs as much as a step. So are those of other methods, and of scenes with drives.
         progress  True for a line on stderr, or a function that is called with the time reached, s.
 
         Returns an ``lgvi.Run``. Other threads run meanwhile, and Ctrl-C stops the run.
@@ -117,7 +120,7 @@ class Scene:
         >>> run.quaternion.shape                                          # times, bodies, w x y z
         (251, 3, 4)
         """
-        arguments = plan(t, method, step, accuracy, every, full, estimate)
+        arguments = plan(t, method, step, accuracy, every, full, estimate, exact)
         parts = self._native.simulate(arguments, reporter(progress, arguments[0], "s"))
         return Run._of(parts, self)
 

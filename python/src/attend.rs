@@ -13,7 +13,7 @@ const PATIENCE: Duration = Duration::from_millis(30);
 /// What the two threads tell one another.
 #[derive(Default)]
 pub struct Desk {
-    is_stopped: AtomicBool,
+    is_stopped: Arc<AtomicBool>,
     /// The bits of how far the work is.
     reached: AtomicU64,
 }
@@ -22,6 +22,14 @@ impl Desk {
     /// Whether nobody waits for the work any more.
     pub fn is_stopped(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
+    }
+
+    /// For a part of the work, which stops with the whole, and whose progress is its own.
+    pub fn part(&self) -> Self {
+        Self {
+            is_stopped: self.is_stopped.clone(),
+            reached: AtomicU64::default(),
+        }
     }
 
     /// Tells how far the work is.

@@ -52,14 +52,13 @@ fn all(
     let results: Arc<Mutex<Vec<Option<Outcome>>>> =
         Arc::new(Mutex::new((0..count).map(|_| None).collect()));
     let worker = || {
-        // How far a single run is says nothing of the whole.
-        let quiet = Desk::default();
+        let part = desk.part();
         while !desk.is_stopped() {
             let i = next.fetch_add(1, Ordering::Relaxed);
             if i >= count {
                 break;
             }
-            let outcome = work(i, &quiet);
+            let outcome = work(i, &part);
             results.lock().unwrap_or_else(PoisonError::into_inner)[i] = Some(outcome);
             desk.reach((done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
         }

@@ -18,9 +18,11 @@ pub struct Wanted {
     pub plan: Plan,
     /// The times of the frames; without them, those of the plan's schedule.
     pub times: Option<Arc<[f64]>>,
+    /// Whether frames inside a step take steps of their own.
+    pub exact: bool,
 }
 
-/// As Python gives it: until when or the times of frames, method, step, accuracy, steps between frames, whether in full, whether with an estimate.
+/// As Python gives it: until when, the times of frames, method, step, accuracy, steps between frames; whether in full, with an estimate, exact.
 pub type Arguments = (
     f64,
     Option<Vec<f64>>,
@@ -30,13 +32,14 @@ pub type Arguments = (
     u64,
     bool,
     bool,
+    bool,
 );
 
 impl Wanted {
     /// # Errors
     /// `ValueError` of an unknown method.
     pub fn new(
-        (until, times, method, step, accuracy, every, full, estimate): Arguments,
+        (until, times, method, step, accuracy, every, full, estimate, exact): Arguments,
     ) -> PyResult<Self> {
         let choice = match (accuracy, method) {
             (Some(accuracy), _) => Choice::Accuracy(accuracy),
@@ -56,6 +59,7 @@ impl Wanted {
                 estimate,
             },
             times: times.map(Arc::from),
+            exact,
         })
     }
 }
@@ -78,6 +82,9 @@ pub struct Trajectory {
 /// [`SimError`].
 pub fn run(scene: &Scene, wanted: &Wanted, desk: &Desk) -> Result<Option<Trajectory>, SimError> {
     let mut simulation = Simulation::new(scene, &wanted.plan)?;
+    if !wanted.exact {
+        simulation = simulation.interpolated();
+    }
     let mut seen = Seen::new(scene);
     let Some(times) = &wanted.times else {
         while !simulation.is_done() {

@@ -1,9 +1,13 @@
 import os
 import shutil
+import signal
 from pathlib import Path
 
 import lgvi
 import pytest
+
+# A shell has its background jobs ignore Ctrl-C.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 

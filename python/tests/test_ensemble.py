@@ -4,6 +4,7 @@ import _thread
 import multiprocessing
 import pickle
 import threading
+import time
 from concurrent.futures import ProcessPoolExecutor
 
 import lgvi
@@ -60,6 +61,11 @@ def test_ctrl_c_stops_an_ensemble(scene):
     threading.Timer(0.3, _thread.interrupt_main).start()
     with pytest.raises(KeyboardInterrupt):
         lgvi.ensemble(sweep(scene, 50), 1e5, "lgvi", every=10**6)
+    # No thread goes on.
+    time.sleep(0.5)
+    begin = time.process_time()
+    time.sleep(0.5)
+    assert time.process_time() - begin < 0.1
 
 
 def test_progress_counts_runs(scene):

@@ -15,7 +15,7 @@ def example(name):
     return module
 
 
-@pytest.mark.parametrize("name", ["fish", "heavy_top", "beam"])
+@pytest.mark.parametrize("name", ["fish", "heavy_top", "beam", "double_pendulum", "satellite", "swimmer"])
 def test_an_example_runs(name):
     assert example(name).main() is not None
 
@@ -38,4 +38,6 @@ def test_a_cluster_gives_the_same(kind):
 
 
 def test_every_example_is_run_here():
-    assert {path.stem for path in EXAMPLES.glob("*.py")} == {"beam", "clusters", "fish", "heavy_top", "sweep"}
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == {
+        "beam", "clusters", "double_pendulum", "fish", "heavy_top", "satellite", "swimmer", "sweep",
+    }
