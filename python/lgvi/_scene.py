@@ -101,7 +101,8 @@ class Scene:
         method    a name of ``lgvi.methods()``; "gauss-8", of order 16, unless given.
                   gauss-S has S stages and order 2S, composition-P the order P, lgvi the order 1.
         step      the longest step to take, s. Unless given, that of the method, doubled or halved as a rough run
-                  finds the scene slower or faster than the example. Such a step is halved where it is refused.
+                  finds the scene slower or faster than the example: give one where you run many scenes, as that run
+                  may take longer than yours. Such a step is halved where it is refused.
         accuracy  the error to keep until the end, in radians and metres, instead of method and step: a rehearsal
                   of the whole run chooses both. The report has what it estimates.
         every     steps between frames; t = 0 and the end are always there.

@@ -125,7 +125,7 @@ class System:
     @property
     def instructions(self) -> int:
         """How many instructions the recorded value of L has."""
-        return self._formulas[0].instructions
+        return int(self._formulas[0].instructions)
 
     def replace(self, parameters: Mapping[str, float]) -> System:
         """The same system with other values of some parameters; nothing is recorded anew.

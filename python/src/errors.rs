@@ -53,7 +53,13 @@ pub fn of_run(py: Python<'_>, error: &SimError) -> PyErr {
     match error {
         SimError::Step { step, source, .. } => of_step(py, source, *step, &error.to_string()),
         SimError::Rehearsal { source, .. } => of_step(py, source, source.step, &error.to_string()),
-        _ => PyValueError::new_err(error.to_string()),
+        // The command's options are arguments here.
+        _ => PyValueError::new_err(
+            error
+                .to_string()
+                .replace("--until", "t")
+                .replace("--step", "step"),
+        ),
     }
 }
 

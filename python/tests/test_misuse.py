@@ -6,6 +6,7 @@ import re
 import lgvi
 import numpy as np
 import pytest
+from conftest import SCENES
 
 
 def top(t, R, omega):
@@ -65,6 +66,7 @@ MISUSES = [
     (lambda: SCENE.simulate(1e9, step=1e-9), ValueError, r"are 1\.0e18 steps, more than 1e11"),
     (lambda: SCENE.simulate(10, "gauss-8", step=5), lgvi.StepError, r"no solution found for h = 5 s .* try a smaller step"),
     (lambda: SCENE.simulate(1, progress=3), TypeError, r"progress is 3; expected True, or a function"),
+    (lambda: lgvi.Scene.load(SCENES / "loads/arm.toml").simulate(1, "composition-8", step=0.5), ValueError, r"its step is at most .* take a shorter step"),
     # Scenes.
     (lambda: SCENE.replace({"joint.fin.stiffness": 1.0}), ValueError, r"joint\.fin\.stiffness: no joint has this name; .* one of: tail-1, tail-2"),
     (lambda: SCENE.replace({"joint.tail-1.stiffnes": 1.0}), lgvi.SceneError, r"joint\.stiffnes: unknown key; expected one of"),
