@@ -1,7 +1,5 @@
 //! What `lgvi.System` holds.
 
-use std::sync::Arc;
-
 use dvi::laws::{self, LawError};
 use dvi::{Context, Gauss, Lagrangian, Quadrature, State};
 use lie::LieGroup;
@@ -12,7 +10,7 @@ use pyo3::types::PyDict;
 
 use super::elements::{Counts, Elements, coordinates, identity, numbers_of, read, velocity, write};
 use super::recorded::{Recorded, RecordedForce};
-use super::run::{Frames, Method, Refusal, Systems, run, vary};
+use super::run::{Frames, Method, Refusal, Systems, Varied, run, vary};
 use super::tracer::NativeFormula;
 use crate::attend::attend;
 use crate::errors;
@@ -116,7 +114,7 @@ impl NativeSystem {
             vary(&systems, (method, state), (until, step), desk)
         })?;
         let varied = outcome.map_err(|refusal| raised(py, &refusal))?;
-        let (state, columns) = varied.ok_or_else(stopped)?;
+        let Varied { state, columns } = varied.ok_or_else(stopped)?;
         let mut numbers = Vec::with_capacity(numbers_of(self.systems.lagrangian.counts));
         write(&state.g, &mut numbers);
         Ok((numbers, coordinates(&state.mu), columns))
@@ -210,9 +208,3 @@ fn checked(systems: &Systems, states: &[State<Elements>], h: f64) -> Vec<(String
     }
     out
 }
-
-/// Keeps the shared parts of a system alive in threads that outlive a call.
-const _: fn() = || {
-    fn is_shared<T: Send + Sync + 'static>() {}
-    is_shared::<Arc<Systems>>();
-};

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use dvi::{
-    Composition, FirstVariation, Force, Forced, Gauss, Lagrangian, Quadrature, State, StepError,
-    Variation, Variational,
+    Composition, Discretised, FirstVariation, Forced, Gauss, Lagrangian, Quadrature, State,
+    StepError, Variation, Variational,
 };
 use sim::{Clock, Cost, Due, Run, Schedule, SimError};
 
@@ -77,15 +77,12 @@ impl Systems {
     }
 }
 
-fn forced<F: Force<Group = Elements> + Clone + Send + 'static>(
-    discrete: dvi::Discretised<Recorded>,
+fn forced(
+    discrete: Discretised<Recorded>,
     lagrangian: Recorded,
-    force: F,
+    force: RecordedForce,
     method: Method,
-) -> Boxed
-where
-    F: Sync,
-{
+) -> Boxed {
     let discrete = discrete.with_force(force.clone());
     match method {
         Method::Midpoint => Box::new(Variational::new(discrete)),
@@ -192,7 +189,14 @@ pub fn run(
     Ok(Some(motion))
 }
 
-/// The state at the end, and the derivative of it by the state at the start, then by the parameters: columns.
+/// The state at the end, and its derivatives.
+pub struct Varied {
+    pub state: State<Elements>,
+    /// By the state at the start, then by the parameters.
+    pub columns: Vec<Vec<f64>>,
+}
+
+/// Runs a system with its first variations; none where nobody waits for it.
 ///
 /// # Errors
 /// [`Refusal`].
@@ -201,7 +205,7 @@ pub fn vary(
     (method, start): (Method, State<Elements>),
     (until, step): (f64, f64),
     desk: &Desk,
-) -> Result<Option<(State<Elements>, Vec<Vec<f64>>)>, Refusal> {
+) -> Result<Option<Varied>, Refusal> {
     let clock = Clock::new(until, step)?;
     let mut integrator = systems.integrator(method);
     let mut columns = Variation::basis(&start.g);
@@ -219,5 +223,5 @@ pub fn vary(
     let column =
         |column: &Variation<Elements>| [coordinates(&column.eta), coordinates(&column.mu)].concat();
     let columns = columns.iter().map(column).collect();
-    Ok(Some((state, columns)))
+    Ok(Some(Varied { state, columns }))
 }
