@@ -6,6 +6,7 @@ Scenes and results can be pickled, so there is nothing else to do. On one machin
 """
 
 import sys
+from pathlib import Path
 
 import lgvi
 import numpy as np
@@ -43,7 +44,9 @@ def by_dask(scenes, size):
 def by_ray(scenes, size):
     import ray
 
-    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    # Its workers import this module too.
+    beside = {"env_vars": {"PYTHONPATH": str(Path(__file__).parent)}}
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False, runtime_env=beside)
     try:
         remote = ray.remote(run)
         return np.concatenate(ray.get([remote.remote(part) for part in parts(scenes, size)]))

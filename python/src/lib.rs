@@ -1,4 +1,4 @@
-//! The native half of the Python package `lgvi`; its other half, `python/lgvi`, has the names, the help and the checks of types.
+//! The native half of the Python package `lgvi`; its other half, `package/lgvi`, has the names, the help and the checks of types.
 
 mod attend;
 mod ensemble;
