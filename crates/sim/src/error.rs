@@ -113,6 +113,19 @@ pub enum SimError {
         /// Why.
         source: StepError,
     },
+    /// A frame is asked for that is not ahead.
+    #[error(
+        "a frame at {} s is asked for where the run is at {} s on its way to {} s; ask for times in this range, in order",
+        decimal(*t), decimal(*from), decimal(*to)
+    )]
+    Outside {
+        /// When, s.
+        t: f64,
+        /// Where the run is, s.
+        from: f64,
+        /// Where it ends, s.
+        to: f64,
+    },
     /// A step was refused; the run stays at the end of the one before.
     #[error("{source}")]
     Step {

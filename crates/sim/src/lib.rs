@@ -38,6 +38,7 @@ mod accuracy;
 mod choice;
 mod clock;
 mod companion;
+mod dense;
 mod distance;
 mod drives;
 mod error;

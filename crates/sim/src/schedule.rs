@@ -23,6 +23,25 @@ pub struct Due {
     pub t: f64,
 }
 
+impl Due {
+    /// The sample at the time `t`, s: at the end of a step, or inside the next one.
+    pub fn at(clock: &Clock, t: f64) -> Self {
+        if clock.is_end(t) {
+            return Self::at_step(clock, clock.steps());
+        }
+        let (steps, ahead) = clock.locate(t);
+        Self { steps, ahead, t }
+    }
+
+    fn at_step(clock: &Clock, steps: u64) -> Self {
+        Self {
+            steps,
+            ahead: 0.0,
+            t: clock.time(steps),
+        }
+    }
+}
+
 impl Schedule {
     /// Refuses what has no end.
     ///
@@ -48,20 +67,9 @@ impl Schedule {
 
     /// The sample number `k`, with the one at t = 0 as number zero; from some number on, the end.
     pub fn due(&self, clock: &Clock, k: u64) -> Due {
-        let at_step = |steps| Due {
-            steps,
-            ahead: 0.0,
-            t: clock.time(steps),
-        };
         match *self {
-            Self::Steps(every) => at_step(every.saturating_mul(k).min(clock.steps())),
-            Self::Seconds(every) => match k as f64 * every {
-                t if clock.is_end(t) => at_step(clock.steps()),
-                t => {
-                    let (steps, ahead) = clock.locate(t);
-                    Due { steps, ahead, t }
-                }
-            },
+            Self::Steps(every) => Due::at_step(clock, every.saturating_mul(k).min(clock.steps())),
+            Self::Seconds(every) => Due::at(clock, k as f64 * every),
         }
     }
 }

@@ -187,14 +187,91 @@ fn columns(
     })
 }
 
-/// Writes a row for each frame, with all digits, under a header.
-pub struct Table<W> {
-    out: W,
+/// The numbers of a [`Table`]: a row for each frame.
+///
+/// ```
+/// use articulated_fluid::{Scene, scene};
+/// use sim::table::Rows;
+/// use sim::{Plan, Simulation};
+///
+/// let scene = Scene::parse(scene::EXAMPLE, "example.toml")?;
+/// let mut rows = Rows::of_all(&scene);
+/// let first = Simulation::new(&scene, &Plan::default())?.advance()?.ok_or("no frame")?;
+/// let row = rows.row(&first).ok_or("another scene")?;
+/// assert_eq!((row.len(), row[0], &rows.names()[0][..]), (rows.names().len(), 0.0, "t"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+pub struct Rows {
     chosen: Vec<&'static Column>,
     /// What the bodies count in the centre of mass, kg.
     masses: Vec<f64>,
     names: Names,
     row: Vec<f64>,
+}
+
+impl Rows {
+    /// The rows of all columns, the [extra](Column::is_extra) ones too, for the bodies of a scene.
+    pub fn of_all(scene: &Scene) -> Self {
+        Self::of(scene, |_| true)
+    }
+
+    fn of(scene: &Scene, is_chosen: fn(&Column) -> bool) -> Self {
+        let chosen: Vec<_> = COLUMNS.iter().filter(|column| is_chosen(column)).collect();
+        let names = Names::of(scene);
+        let width = columns(&chosen, &names).map(|(column, _)| column.names.len());
+        Self {
+            row: vec![0.0; width.sum()],
+            masses: scene.centre_masses(),
+            chosen,
+            names,
+        }
+    }
+
+    /// The names of the numbers: that of a body or a joint before a dot, where they are of one.
+    pub fn names(&self) -> Vec<String> {
+        let names = columns(&self.chosen, &self.names).flat_map(|(column, i)| {
+            let of = self.names.of_column(column).get(i);
+            let name = move |name: &&str| match of {
+                None => (*name).to_owned(),
+                Some(of) => format!("{of}.{name}"),
+            };
+            column.names.iter().map(name)
+        });
+        names.collect()
+    }
+
+    /// The numbers of a frame; none of one with another number of bodies. A quaternion takes the sign that is nearer to the row before.
+    pub fn row(&mut self, frame: &Frame) -> Option<&[f64]> {
+        if frame.bodies.attitudes.len() != self.masses.len() {
+            return None;
+        }
+        let centre = frame.centre_of(&self.masses);
+        let seen = Seen { frame, centre };
+        let mut rest = &mut self.row[..];
+        for (column, i) in columns(&self.chosen, &self.names) {
+            let (to, after) = rest.split_at_mut(column.names.len());
+            match column.read {
+                Read::Whole(read) => read(&seen, to),
+                Read::Body(read) | Read::Hinge(read) => read(&seen, i, to),
+                Read::Work(kind) => {
+                    let load = frame.drives.iter().find(|drive| drive.kind == kind);
+                    to.fill(load.map_or(f64::NAN, |load| load.work));
+                }
+                Read::Drive(read) => match frame.drives.get(i) {
+                    Some(drive) => read(drive, to),
+                    None => to.fill(f64::NAN),
+                },
+            }
+            rest = after;
+        }
+        Some(&self.row)
+    }
+}
+
+/// Writes a row for each frame, with all digits, under a header.
+pub struct Table<W> {
+    out: W,
+    rows: Rows,
     line: String,
 }
 
@@ -216,26 +293,11 @@ impl<W: Write> Table<W> {
     }
 
     fn of(mut out: W, scene: &Scene, is_chosen: fn(&Column) -> bool) -> io::Result<Self> {
-        let chosen: Vec<_> = COLUMNS.iter().filter(|column| is_chosen(column)).collect();
-        let names = Names::of(scene);
-        let header = columns(&chosen, &names).flat_map(|(column, i)| {
-            let of = names.of_column(column).get(i);
-            let name = move |name: &&str| match of {
-                None => (*name).to_owned(),
-                Some(of) => quoted(format!("{of}.{name}")),
-            };
-            column.names.iter().map(name)
-        });
-        let header: Vec<_> = header.collect();
+        let rows = Rows::of(scene, is_chosen);
+        let header: Vec<_> = rows.names().into_iter().map(quoted).collect();
         writeln!(out, "{}", header.join(","))?;
-        Ok(Self {
-            out,
-            chosen,
-            masses: scene.centre_masses(),
-            row: vec![0.0; header.len()],
-            names,
-            line: String::new(),
-        })
+        let line = String::new();
+        Ok(Self { out, rows, line })
     }
 
     /// Writes the row of a frame.
@@ -243,35 +305,10 @@ impl<W: Write> Table<W> {
     /// # Errors
     /// Those of `out`; [`InvalidInput`](io::ErrorKind::InvalidInput) of a frame with another number of bodies.
     pub fn row(&mut self, frame: &Frame) -> io::Result<()> {
-        if frame.bodies.attitudes.len() != self.masses.len() {
-            return Err(io::ErrorKind::InvalidInput.into());
-        }
-        let centre = frame.centre_of(&self.masses);
-        let seen = Seen { frame, centre };
-        let mut rest = &mut self.row[..];
-        for (column, i) in columns(&self.chosen, &self.names) {
-            let (to, after) = rest.split_at_mut(column.names.len());
-            match column.read {
-                Read::Whole(read) => read(&seen, to),
-                Read::Body(read) | Read::Hinge(read) => read(&seen, i, to),
-                Read::Work(kind) => {
-                    let load = frame.drives.iter().find(|drive| drive.kind == kind);
-                    to.fill(load.map_or(f64::NAN, |load| load.work));
-                }
-                Read::Drive(read) => match frame.drives.get(i) {
-                    Some(drive) => read(drive, to),
-                    None => to.fill(f64::NAN),
-                },
-            }
-            rest = after;
-        }
-        self.write()
-    }
-
-    fn write(&mut self) -> io::Result<()> {
         use core::fmt::Write;
+        let row = self.rows.row(frame).ok_or(io::ErrorKind::InvalidInput)?;
         self.line.clear();
-        for (k, number) in self.row.iter().enumerate() {
+        for (k, number) in row.iter().enumerate() {
             let comma = if k == 0 { "" } else { "," };
             // A string takes what is written to it.
             let _ = write!(self.line, "{comma}{number:.16e}");

@@ -8,7 +8,7 @@ use toml::de::{DeArray, DeFloat, DeInteger, DeTable, DeValue};
 use super::error::SceneError;
 use super::keys::{below, expected};
 use super::note::{Correction, Note};
-use super::source::{Source, quote};
+use super::source::{Reads, Source, quote};
 
 /// A table or a value of a file.
 #[derive(Clone)]
@@ -188,6 +188,11 @@ impl<'a> Value<'a> {
     /// The path that is named, from the folder of the scene.
     pub fn beside_the_scene(&self) -> Result<PathBuf, SceneError> {
         Ok(self.source.folder().join(self.text()?))
+    }
+
+    /// What reads the file at such a path.
+    pub fn reads(&self) -> &'a Reads<'a> {
+        self.source.reads
     }
 
     pub fn is_array(&self) -> bool {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::entry::{Table, Value};
 use super::error::{MOST_BYTES, SceneError};
-use super::source::read_bounded;
+use super::source::Reads;
 use crate::motion::{Ends, Law, Sinusoid, Spline, SplineError};
 
 /// A law that may be shared.
@@ -167,7 +167,7 @@ fn measured<const N: usize>(motion: &Table, file: &Value) -> Result<Shared<N>, S
         return Err(columns.wrong(&what));
     }
     let path = file.beside_the_scene()?;
-    let rows = rows::<N>(&path, names.as_deref()).map_err(|what| file.fail(&what))?;
+    let rows = rows::<N>(&path, names.as_deref(), file.reads()).map_err(|what| file.fail(&what))?;
     let (lines, points): (Vec<u64>, Vec<_>) = rows.into_iter().unzip();
     let spline = Spline::new(&points, ends).map_err(|error| {
         let what = match error {
@@ -194,9 +194,10 @@ type Row<const N: usize> = (u64, (f64, [f64; N]));
 fn rows<const N: usize>(
     path: &std::path::Path,
     names: Option<&[&str]>,
+    reads: &Reads,
 ) -> Result<Vec<Row<N>>, String> {
     let shown = path.display();
-    let bytes = read_bounded(path).map_err(|error| format!("{shown} cannot be read: {error}"))?;
+    let bytes = reads(path).map_err(|error| format!("{shown} cannot be read: {error}"))?;
     if bytes.len() > MOST_BYTES {
         let most = MOST_BYTES / 1_000_000;
         return Err(format!(

@@ -48,7 +48,8 @@ pub use overlap::{Overlap, Overlaps};
 
 use entry::{Table, Value};
 use forms::Surroundings;
-use source::{Source, read_bounded};
+use source::Source;
+pub use source::{Reads, read_bounded};
 
 /// A scene file with every key, as shown in the documentation of this module.
 pub const EXAMPLE: &str = include_str!("example.toml");
@@ -80,11 +81,15 @@ impl Scene {
     /// a value of the wrong type or size, not finite or out of range, joints that make no tree; [`SceneError::TooLarge`] of a text
     /// longer than [`MOST_BYTES`].
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
+        Self::parse_by(text, file, &read_bounded)
+    }
+
+    fn parse_by(text: &str, file: &str, reads: &Reads) -> Result<Self, SceneError> {
         if text.len() > MOST_BYTES {
             let file = file.to_owned();
             return Err(SceneError::TooLarge { file });
         }
-        let source = Source::new(text, file);
+        let source = Source::new(text, file, reads);
         let tree = source.parse()?;
         let scene = read(&Table::root(&source, tree.get_ref())?)?;
         let notes = source.into_notes();
@@ -97,10 +102,30 @@ impl Scene {
     ///
     /// [`SceneError::Io`] if the file cannot be read as UTF-8 text, else as [`Scene::parse`].
     pub fn load(path: &Path) -> Result<Self, SceneError> {
+        Self::load_by(path, &read_bounded)
+    }
+
+    /// Reads the scene in the file `path`, and the tables that it names, by `reads` instead of from the disk.
+    ///
+    /// So a caller can keep what was read, and read the scene again where those files are not.
+    ///
+    /// ```
+    /// use articulated_fluid::Scene;
+    ///
+    /// let text = b"fluid.density = 0\n[[body]]\nname = 'ball'\nmass = 1\ninertia = [1, 1, 1]";
+    /// let scene = Scene::load_by("no/such/file.toml".as_ref(), &|_| Ok(text.to_vec()))?;
+    /// assert_eq!(scene.bodies[0].name, "ball");
+    /// # Ok::<(), articulated_fluid::scene::SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Scene::load`].
+    pub fn load_by(path: &Path, reads: &Reads) -> Result<Self, SceneError> {
         let file = path.display().to_string();
-        match read_bounded(path) {
+        match reads(path) {
             Ok(bytes) => match std::str::from_utf8(&bytes) {
-                Ok(text) => Self::parse(text, &file),
+                Ok(text) => Self::parse_by(text, &file, reads),
                 // The end may be one of a text that goes on.
                 Err(_) if bytes.len() > MOST_BYTES => Err(SceneError::TooLarge { file }),
                 Err(error) => {

@@ -14,9 +14,14 @@ use super::note::Note;
 /// Longest piece of the file's own text in a message, in characters.
 const QUOTE: usize = 120;
 
+/// What gives the bytes of a file, by its path.
+pub type Reads<'a> = dyn Fn(&Path) -> io::Result<Vec<u8>> + 'a;
+
 pub(super) struct Source<'a> {
     text: &'a str,
     file: &'a str,
+    /// What reads the tables that the scene names.
+    pub reads: &'a Reads<'a>,
     /// What was corrected so far.
     pub notes: RefCell<Vec<Note>>,
     /// The bytes at which lines end: each body may ask for its line.
@@ -24,10 +29,11 @@ pub(super) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    pub fn new(text: &'a str, file: &'a str) -> Self {
+    pub fn new(text: &'a str, file: &'a str, reads: &'a Reads) -> Self {
         Self {
             text,
             file,
+            reads,
             notes: RefCell::default(),
             newlines: OnceCell::new(),
         }
@@ -94,8 +100,11 @@ impl<'a> Source<'a> {
     }
 }
 
-/// The bytes of a file, or as many as tell that it is too large: it may be a device without end.
-pub(super) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+/// The bytes of a file, or as many as tell that it is larger than [`MOST_BYTES`]: it may be a device without end.
+///
+/// # Errors
+/// Those of the operating system.
+pub fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = vec![];
     let file = File::open(path)?;
     file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes)?;

@@ -1,6 +1,7 @@
 //! Runs of scenes: the methods by name, the laws of the loop, and the table. One program, for what they share is compiled once.
 
 mod accuracy;
+mod dense;
 mod errors;
 mod file;
 mod methods;

@@ -1,0 +1,198 @@
+"""Scenes, and runs of them."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ._arguments import Progress, plan, reporter
+from ._lgvi import NativeScene
+from ._lgvi import methods as _methods
+from ._run import Run
+
+
+class Scene:
+    """Rigid bodies on joints, in a perfect fluid or in a vacuum: what ``lgvi run`` reads from a TOML file.
+
+    Made by ``Scene.load``, ``Scene.parse`` or ``Scene.example``, it never changes; ``replace`` gives another one.
+    ``print(Scene.keys())`` tells every key of such a file with its unit.
+
+    A scene can be pickled, and then has with it the tables that it reads, such as measured strokes.
+    Two scenes are equal where their texts and tables are.
+    """
+
+    __slots__ = ("_native",)
+    _native: NativeScene
+
+    def __init__(self) -> None:
+        raise TypeError("a scene is made by Scene.load(path), Scene.parse(text) or Scene.example()")
+
+    @classmethod
+    def _of(cls, native: NativeScene) -> Scene:
+        scene = object.__new__(cls)
+        scene._native = native
+        return scene
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Scene:
+        """Read the scene in a TOML file.
+
+        Raises ``OSError`` where the file cannot be read, and ``lgvi.SceneError`` (a ``ValueError``) where it is
+        wrong: ``FILE:LINE:COLUMN: KEY: what is wrong; expected ...``.
+        """
+        return cls._of(NativeScene.load(os.fspath(path)))
+
+    @classmethod
+    def parse(cls, text: str, folder: str | os.PathLike[str] = ".") -> Scene:
+        """Read a scene from its text; tables that it names are looked for in ``folder``.
+
+        >>> lgvi.Scene.parse('''
+        ... fluid.density = 1000                  # kg/m^3
+        ... [[body]]
+        ... name = "hull"
+        ... semi_axes = [2, 0.5, 0.5]             # m
+        ... angular_velocity = [0, 0.1, 1]        # rad/s, in the body's frame
+        ... ''')
+        """
+        if not isinstance(text, str):
+            raise TypeError(f"text is {type(text).__name__}; expected the text of a scene, or use Scene.load(path)")
+        return cls._of(NativeScene.parse(text, os.fspath(Path(folder) / "scene.toml")))
+
+    @classmethod
+    def example(cls) -> Scene:
+        """The three ellipsoids of Lee, Leok & McClamroch (2009), which ``lgvi run`` has built in."""
+        return cls._of(NativeScene.example())
+
+    def replace(self, changes: Mapping[str, Any]) -> Scene:
+        """The same scene with other values: by the path of a key, with bodies and joints by their names.
+
+        >>> stiff = scene.replace({"joint.tail.stiffness": 3.0, "gravity": [0, 0, -9.81]})
+        >>> calm = scene.replace({"body.head.angular_velocity": None})      # takes the key away
+
+        A joint without a name has that of its child. Values are numbers, strings, booleans, lists, arrays and
+        dictionaries. Raises ``ValueError`` where nothing has such a name, and ``lgvi.SceneError`` where what
+        comes of it is no scene.
+        """
+        if not isinstance(changes, Mapping):
+            raise TypeError(f"changes are {type(changes).__name__}; expected a dictionary of paths and values")
+        return self._of(self._native.replace({path: _plain(value) for path, value in changes.items()}))
+
+    def simulate(
+        self,
+        t: Any,
+        method: str | None = None,
+        step: float | None = None,
+        accuracy: float | None = None,
+        *,
+        every: int = 1,
+        full: bool = False,
+        estimate: bool = False,
+        exact: bool = False,
+        progress: Progress = None,
+    ) -> Run:
+        """Run the scene from t = 0, and give what was seen as arrays.
+
+        t         a number: the time to run to, s, with a frame at every step.
+                  An array: the times of the frames, s, increasing; the last one is the end. Frames inside a
+                  step of gauss-S are interpolated between its stages, to O(h^(S+1)) in the step h: see ``exact``.
+        method    a name of ``lgvi.methods()``; "gauss-8", of order 16, unless given.
+                  gauss-S has S stages and order 2S, composition-P the order P, lgvi the order 1.
+        step      the longest step to take, s. Unless given, that of the method, doubled or halved as a rough run
+                  finds the scene slower or faster than the example: give one where you run many scenes, as that run
+                  may take longer than yours. Such a step is halved where it is refused.
+        accuracy  the error to keep until the end, in radians and metres, instead of method and step: a rehearsal
+                  of the whole run chooses both. The report has what it estimates.
+        every     steps between frames; t = 0 and the end are always there.
+        full      takes no reduction: all coordinates are unknowns. The motion is the same.
+        estimate  lets two runs in longer steps go along, which estimate the trajectory's error in the report.
+        exact     frames inside a step are computed by a shorter step of the method, so that they are as exact as
+                  the run; each costs as much as a step. So are those of other methods, and of scenes with drives.
+        progress  True for a line on stderr, or a function that is called with the time reached, s.
+
+        Returns an ``lgvi.Run``. Other threads run meanwhile, and Ctrl-C stops the run.
+
+        Raises ``lgvi.StepError`` where a step is refused, with its time, its size and what to try;
+        ``ValueError`` and ``TypeError`` of arguments that make no run.
+
+        >>> run = scene.simulate(np.linspace(0, 10, 251), "gauss-8")
+        >>> run.quaternion.shape                                          # times, bodies, w x y z
+        (251, 3, 4)
+        """
+        arguments = plan(t, method, step, accuracy, every, full, estimate, exact)
+        parts = self._native.simulate(arguments, reporter(progress, arguments[0], "s"))
+        return Run._of(parts, self)
+
+    @property
+    def title(self) -> str | None:
+        """What the scene shows, for people."""
+        return self._native.title
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """The names of the bodies, in the order of all arrays; the first is the root of the tree."""
+        return tuple(self._native.bodies)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of the joints."""
+        return tuple(self._native.joints)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was corrected in the text, such as a quaternion of few digits."""
+        return tuple(self._native.notes)
+
+    @property
+    def text(self) -> str:
+        """The TOML text."""
+        return self._native.text
+
+    @property
+    def file(self) -> Path:
+        """Where it is from, as messages name it."""
+        return Path(self._native.file)
+
+    @staticmethod
+    def keys() -> str:
+        """The documentation of all keys of a scene's text."""
+        return NativeScene.keys()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Scene) and self._native.state() == other._native.state()
+
+    def __hash__(self) -> int:
+        return hash(self.text)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, self._native.state()
+
+    def __repr__(self) -> str:
+        title = "" if self.title is None else f" {self.title!r}"
+        return f"<lgvi.Scene{title}: bodies {', '.join(self.bodies)}>"
+
+
+def _restored(file: Path, files: dict[Path, bytes]) -> Scene:
+    return Scene._of(NativeScene.restore(file, files))
+
+
+def _plain(value: Any) -> Any:
+    """Arrays as lists, at any depth."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, Mapping):
+        return {key: _plain(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    return value
+
+
+def methods() -> dict[str, dict[str, Any]]:
+    """The integrators by their names: order, stages, default step, what they keep, what they cost.
+
+    >>> lgvi.methods()["gauss-8"]["order"]
+    16
+    """
+    return {method.pop("name"): method for method in json.loads(_methods())}
