@@ -79,9 +79,9 @@ pub use system::{
     Adjoint, AdjointWorkspace, Context, ContinuousSystem, Derivatives, DiscreteForce,
     DiscreteLagrangian, Discretised, DiscretisedWorkspace, DualSystem, Force, Forced,
     ForcedWorkspace, HamiltonianSystem, HamiltonianWorkspace, Lagrangian, LeftTranslation,
-    LegendreWorkspace, Means, Pair, Quadrature, RightTranslation, ShapeError, State, Still,
-    Symmetry, System, TracedError, TracedSystem, TracedWorkspace, legendre_minus, legendre_plus,
-    momentum_map,
+    LegendreWorkspace, Means, Pair, Quadrature, Recording, RightTranslation, ShapeError, State,
+    Still, Symmetry, System, TracedError, TracedSystem, TracedWorkspace, legendre_minus,
+    legendre_plus, momentum_map,
 };
 pub use variation::{FirstVariation, Variation, symplectic_form};
 pub use variational::Variational;

@@ -181,7 +181,8 @@ pub(super) fn stepper<C: ContinuousSystem + 'static, R: Retraction>(
 ) -> (Box<dyn Stepper<C>>, Means) {
     let means = match C::IS_RECORDED {
         true => match system.recorded(t, g) {
-            Ok(recorded) => {
+            Ok(recording) => {
+                let recorded = TracedSystem::from(recording);
                 let steps = New::<TracedSystem<C::Group>, R>::at(tableau, g);
                 let steps = run(instructions, steps);
                 return (Box::new(OnRecording { recorded, steps }), Means::Recorded);

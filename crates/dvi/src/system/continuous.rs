@@ -3,7 +3,7 @@
 use lie::{AlgebraOver, DualOver, Over, Scalar};
 
 use super::context::{Context, System};
-use super::traced::{TracedError, TracedSystem};
+use super::traced::{Recording, TracedError};
 
 /// How the derivatives of a system come about.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -81,13 +81,13 @@ pub trait ContinuousSystem: System {
         Means::Formulas
     }
 
-    /// The same system as a program, for steps from `g` at the time `t`; or what it is evaluated by, where it is not recorded.
+    /// What is recorded of the system, for steps from `g` at the time `t`.
     ///
-    /// Integrators ask for it before their first step where [`IS_RECORDED`](Self::IS_RECORDED), and step what they get. It runs in lanes.
+    /// Integrators ask for it before their first step where [`IS_RECORDED`](Self::IS_RECORDED), and step the [`TracedSystem`](crate::TracedSystem) of it. That runs in lanes.
     ///
     /// # Errors
     /// How the rates come about where there is no recording.
-    fn recorded(&self, t: f64, g: &Self::Group) -> Result<TracedSystem<Self::Group>, Means> {
+    fn recorded(&self, t: f64, g: &Self::Group) -> Result<Recording<Self::Group>, Means> {
         Err(self.means(t, g))
     }
 }
@@ -118,7 +118,7 @@ impl<C: ContinuousSystem> ContinuousSystem for &C {
     fn means(&self, t: f64, g: &C::Group) -> Means {
         C::means(self, t, g)
     }
-    fn recorded(&self, t: f64, g: &C::Group) -> Result<TracedSystem<C::Group>, Means> {
+    fn recorded(&self, t: f64, g: &C::Group) -> Result<Recording<C::Group>, Means> {
         C::recorded(self, t, g)
     }
 }

@@ -11,7 +11,7 @@ use super::dual_system::{DualSystem, LegendreWorkspace, velocity_and_force as by
 use super::lagrangian::{HamiltonianSystem, Lagrangian};
 use super::state::State;
 use super::traced::{
-    Pivot, TracedError, TracedSystem, TracedWorkspace, read_rates, without_inertia,
+    Pivot, Recording, TracedError, TracedSystem, TracedWorkspace, read_rates, without_inertia,
 };
 
 impl<L: System + Debug> Debug for HamiltonianSystem<L> {
@@ -28,7 +28,7 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
         let State { t, g, mu } = state;
         let at = Context::new(*t, self.lagrangian.parameters());
         let traced = self.traced(g).ok();
-        let found = traced.and_then(|s| s.programs().rates(at, g, mu));
+        let found = traced.and_then(|s| s.programs.rates(at, g, mu));
         let (mut xi, mut tau) = (g.zero_algebra(), g.zero_dual());
         read_rates(found.as_deref(), &mut xi, &mut tau);
         if xi.max_magnitude().is_finite() {
@@ -42,7 +42,7 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
         let State { t, g, mu } = state;
         let at = Context::new(*t, self.lagrangian.parameters());
         let traced = self.traced(g).ok();
-        let found = traced.and_then(|s| s.programs().energy(at, g, mu));
+        let found = traced.and_then(|s| s.programs.energy(at, g, mu));
         let finite = found.filter(|energy| energy.is_finite());
         finite.unwrap_or_else(|| self.by_duals().energy(state))
     }
@@ -52,8 +52,8 @@ impl<L: Lagrangian> HamiltonianSystem<L> {
     }
 
     /// What is recorded for the shape of `g`.
-    fn traced(&self, g: &L::Group) -> Result<Arc<TracedSystem<L::Group>>, TracedError> {
-        let record = || TracedSystem::new(&self.lagrangian, g);
+    fn traced(&self, g: &L::Group) -> Result<Arc<Recording<L::Group>>, TracedError> {
+        let record = || Ok(TracedSystem::new(&self.lagrangian, g)?.into_recording());
         self.recorded.find(g, (), record)
     }
 }
@@ -98,7 +98,7 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     ) {
         // The shape alone matters.
         let shape = || L::Group::convert::<S, f64>(g, |_| 0.0);
-        let find = || Some(self.traced(&shape()).ok()?.programs().clone());
+        let find = || Some(self.traced(&shape()).ok()?.programs.clone());
         let found = work.recorded.run(find, at, g, mu);
         let is_finite = |out: &&[S]| out.iter().all(|x| x.magnitude().is_finite());
         // Steps run in lanes by what is recorded alone.
@@ -115,7 +115,7 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
 
     fn without_inertia(&self, t: f64, g: &L::Group) -> Option<usize> {
         match self.traced(g) {
-            Ok(traced) => without_inertia(&self.lagrangian, traced.programs(), (t, g)),
+            Ok(traced) => without_inertia(&self.lagrangian, &traced.programs, (t, g)),
             Err(_) => self.by_duals().without_inertia(t, g),
         }
     }
@@ -125,16 +125,16 @@ impl<L: Lagrangian> ContinuousSystem for HamiltonianSystem<L> {
     }
 
     /// None also where a pivot of the inertia at `g` is negative; and from then on, for this shape.
-    fn recorded(&self, t: f64, g: &L::Group) -> Result<TracedSystem<L::Group>, Means> {
+    fn recorded(&self, t: f64, g: &L::Group) -> Result<Recording<L::Group>, Means> {
         let at = Context::new(t, self.lagrangian.parameters());
         let why = match self.traced(g) {
-            Ok(traced) => match traced.programs().pivot(at, g) {
+            Ok(traced) => match traced.programs.pivot(at, g) {
                 Some((coordinate, Pivot::Negative)) => {
                     let why = TracedError::Indefinite { coordinate };
                     self.recorded.refuse(g, (), why);
                     why
                 }
-                _ => return Ok(TracedSystem::clone(&traced)),
+                _ => return Ok(Recording::clone(&traced)),
             },
             Err(why) => why,
         };

@@ -8,7 +8,7 @@ use super::context::{Context, System};
 use super::quadrature::Quadrature;
 use super::shape::ShapeError;
 use super::state::{State, Still};
-use super::traced::{Cache, TracedSystem};
+use super::traced::{Cache, Recording};
 use crate::numerics::duals::{add_constant, for_each_chunk, read_partials};
 
 /// A Lagrangian $L(g, \xi)$ on a left-trivialised tangent bundle, $\dot g = g \xi$.
@@ -289,5 +289,5 @@ impl<L, R> Discretised<L, R> {
 #[derive(Clone)]
 pub struct HamiltonianSystem<L: System> {
     pub(super) lagrangian: L,
-    pub(super) recorded: Cache<L::Group, (), TracedSystem<L::Group>>,
+    pub(super) recorded: Cache<L::Group, (), Recording<L::Group>>,
 }

@@ -36,4 +36,4 @@ pub use state::{Pair, State, Still};
 pub(crate) use symmetry::generator;
 pub use symmetry::{LeftTranslation, RightTranslation, Symmetry, momentum_map};
 pub(crate) use traced::{DiscreteCache, count_numbers, with_numbers};
-pub use traced::{TracedError, TracedSystem, TracedWorkspace};
+pub use traced::{Recording, TracedError, TracedSystem, TracedWorkspace};

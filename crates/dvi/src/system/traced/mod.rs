@@ -7,6 +7,7 @@ mod elements;
 mod error;
 mod inertia;
 mod part;
+mod recording;
 mod storage;
 mod system;
 mod translation;
@@ -21,6 +22,7 @@ pub(crate) use self::discrete::{DiscreteCache, DiscreteProgram, DiscreteRecordin
 pub(crate) use self::elements::{count as count_numbers, with_numbers};
 pub use self::error::TracedError;
 pub(crate) use self::part::Home;
+pub use self::recording::Recording;
 pub use self::storage::TracedWorkspace;
 pub use self::system::TracedSystem;
 use self::translation::Translations;

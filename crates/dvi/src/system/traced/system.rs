@@ -1,13 +1,13 @@
 //! Hamilton's equations as a program, apart from what was recorded.
 
 use core::ops::Range;
-use std::sync::Arc;
 
 use lie::{AlgebraOver, DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 use trace::{Binary, Graph, Id, Program, record};
 
 use super::compile::{Layout, Programs, rates};
 use super::error::TracedError;
+use super::recording::{Recording, Told};
 use super::storage::{Shared, TracedWorkspace};
 use super::{Pivot, elements, read_rates};
 use crate::system::context::{Context, System};
@@ -49,22 +49,12 @@ use crate::system::shape::ShapeError;
 /// # Ok::<(), dvi::TracedError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct TracedSystem<G: RealGroup> {
-    programs: Arc<Programs>,
-    /// For the program of the value at rest.
-    at_rest: Shared<G>,
-    shape: G,
-    told: Told,
-}
+pub struct TracedSystem<G: RealGroup>(Recording<G>);
 
-/// What a system tells of itself.
-#[derive(Clone, Debug)]
-struct Told {
-    parameters: Vec<f64>,
-    cyclic: Range<usize>,
-    is_driven: bool,
-    terms: usize,
-    is_symplectic: bool,
+impl<G: RealGroup> From<Recording<G>> for TracedSystem<G> {
+    fn from(recording: Recording<G>) -> Self {
+        Self(recording)
+    }
 }
 
 impl<G: RealGroup> TracedSystem<G> {
@@ -74,7 +64,7 @@ impl<G: RealGroup> TracedSystem<G> {
     /// [`TracedError::Trace`] where its value branches on a number or calls [`Scalar::smooth`], [`TracedError::NotQuadratic`] where the
     /// velocity is not to be had from the momentum by a linear system.
     pub fn new<L: Lagrangian<Group = G>>(lagrangian: &L, g: &G) -> Result<Self, TracedError> {
-        Ok(Self {
+        Ok(Self(Recording {
             programs: Programs::of(lagrangian, g)?.into(),
             at_rest: Shared::default(),
             shape: g.clone(),
@@ -85,7 +75,7 @@ impl<G: RealGroup> TracedSystem<G> {
                 terms: lagrangian.terms(),
                 is_symplectic: lagrangian.is_symplectic(),
             },
-        })
+        }))
     }
 
     /// The same with other parameters: nothing is recorded again.
@@ -93,11 +83,11 @@ impl<G: RealGroup> TracedSystem<G> {
     /// # Errors
     /// [`ShapeError::Parameters`] where there are more or fewer of them than before.
     pub fn with_parameters(mut self, parameters: &[f64]) -> Result<Self, ShapeError> {
-        let (expected, found) = (self.told.parameters.len(), parameters.len());
+        let (expected, found) = (self.0.told.parameters.len(), parameters.len());
         if expected != found {
             return Err(ShapeError::Parameters { expected, found });
         }
-        self.told.parameters.copy_from_slice(parameters);
+        self.0.told.parameters.copy_from_slice(parameters);
         Ok(self)
     }
 
@@ -108,38 +98,34 @@ impl<G: RealGroup> TracedSystem<G> {
     /// # Errors
     /// [`TracedError::Trace`] where the force branches on a number or calls [`Scalar::smooth`].
     pub fn with_force<F: Force<Group = G>>(&self, force: &F) -> Result<Self, TracedError> {
-        let layout = Layout::of(self.told.parameters.len(), &self.shape);
+        let layout = Layout::of(self.0.told.parameters.len(), &self.0.shape);
         let acting = record(layout.len(), |x| {
             let at = Context::new(x[0], &x[layout.parameters()]);
-            let g = elements::with_numbers(&self.shape, &x[layout.numbers()]);
+            let g = elements::with_numbers(&self.0.shape, &x[layout.numbers()]);
             let (mut xi, mut out) = (g.zero_algebra(), g.zero_dual());
             xi.read(&x[layout.velocity()]);
             force.force(at, &g, &xi, &mut out);
             out.coordinates()
         })?;
-        let flow = add(self.programs.flow.clone(), layout, &acting);
+        let flow = add(self.0.programs.flow.clone(), layout, &acting);
         let programs = Programs {
             rates: rates(&flow),
             flow,
-            ..(*self.programs).clone()
+            ..(*self.0.programs).clone()
         };
-        Ok(Self {
-            programs: programs.into(),
-            told: Told {
-                is_symplectic: false,
-                ..self.told.clone()
-            },
-            ..self.clone()
-        })
+        let mut forced = self.0.clone();
+        forced.programs = programs.into();
+        forced.told.is_symplectic = false;
+        Ok(Self(forced))
     }
 
     /// What is computed in each evaluation.
     pub fn program(&self) -> &Program {
-        &self.programs.rates
+        &self.0.programs.rates
     }
 
-    pub(crate) fn programs(&self) -> &Arc<Programs> {
-        &self.programs
+    pub(crate) fn into_recording(self) -> Recording<G> {
+        self.0
     }
 }
 
@@ -160,22 +146,22 @@ impl<G: RealGroup> System for TracedSystem<G> {
     type Group = G;
 
     fn parameters(&self) -> &[f64] {
-        &self.told.parameters
+        &self.0.told.parameters
     }
     fn cyclic(&self) -> Range<usize> {
-        self.told.cyclic.clone()
+        self.0.told.cyclic.clone()
     }
     fn fits(&self, g: &G) -> bool {
-        self.shape.same_shape(g)
+        self.0.shape.same_shape(g)
     }
     fn is_driven(&self) -> bool {
-        self.told.is_driven
+        self.0.told.is_driven
     }
     fn terms(&self) -> usize {
-        self.told.terms
+        self.0.told.terms
     }
     fn is_symplectic(&self) -> bool {
-        self.told.is_symplectic
+        self.0.told.is_symplectic
     }
 }
 
@@ -193,19 +179,19 @@ impl<G: RealGroup> ContinuousSystem for TracedSystem<G> {
         xi: &mut AlgebraOver<G, S>,
         tau: &mut DualOver<G, S>,
     ) {
-        let found = work.run(|| Some(self.programs.clone()), at, g, mu);
+        let found = work.run(|| Some(self.0.programs.clone()), at, g, mu);
         read_rates(found, xi, tau);
     }
 
     fn is_defined(&self, t: f64, g: &G) -> bool {
-        let at = Context::new(t, &self.told.parameters);
-        let value = self.at_rest.run(&self.programs.at_rest, at, g);
+        let at = Context::new(t, &self.0.told.parameters);
+        let value = self.0.at_rest.run(&self.0.programs.at_rest, at, g);
         value.is_some_and(f64::is_finite)
     }
 
     fn without_inertia(&self, t: f64, g: &G) -> Option<usize> {
-        let at = Context::new(t, &self.told.parameters);
-        match self.programs.pivot(at, g)? {
+        let at = Context::new(t, &self.0.told.parameters);
+        match self.0.programs.pivot(at, g)? {
             (coordinate, Pivot::Zero) => Some(coordinate),
             _ => None,
         }
