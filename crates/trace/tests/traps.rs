@@ -49,14 +49,16 @@ fn a_loop_that_waits_for_a_value_ends() {
             }
         },
         &|mut x| {
-            while !(x.magnitude() > 1e9) {
+            loop {
                 x = x.times(2.0);
+                if x.magnitude() > 1e9 {
+                    return x;
+                }
             }
-            x
         },
         &|mut x| {
             while !x.is_zero() {
-                x = x - Traced::from_f64(1.0);
+                x -= Traced::from_f64(1.0);
             }
             x
         },
@@ -68,10 +70,12 @@ fn a_loop_that_waits_for_a_value_ends() {
             x
         },
         &|mut x| {
-            while x.magnitude() > 1.0 || !(x.magnitude() < 0.5) {
+            loop {
                 x = x.times(0.5);
+                if x.magnitude() < 1.0 && x.magnitude() > 0.25 {
+                    return x;
+                }
             }
-            x
         },
     ];
     for formula in loops {
