@@ -58,12 +58,18 @@ impl Beside {
     }
 
     /// Refuses what an explicit method cannot do, before a run begins.
+    #[cfg(feature = "chart")]
     pub fn check(self, loaded: &Loaded, until: f64) -> Result<(), CliError> {
         match self {
             Self::Structure(_) => Ok(()),
-            #[cfg(feature = "chart")]
             Self::Explicit(_) => loaded.check_methods(until),
         }
+    }
+
+    /// There is none.
+    #[cfg(not(feature = "chart"))]
+    pub fn check(self, _: &Loaded, _: f64) -> Result<(), CliError> {
+        Ok(())
     }
 
     /// The scene's motion by this method beside a run, with a frame at each of its times.
