@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sim::table::Rows;
 use sim::{Choice, Frame, Method, Plan, Report, Schedule, SimError, Simulation};
+use view::{Motion, Recording};
 
 use crate::attend::Desk;
 
@@ -81,21 +82,59 @@ pub struct Trajectory {
 /// # Errors
 /// [`SimError`].
 pub fn run(scene: &Scene, wanted: &Wanted, desk: &Desk) -> Result<Option<Trajectory>, SimError> {
+    let mut seen = Seen::new(scene);
+    let done = see_all(scene, wanted, desk, |_, frame| seen.add(frame))?;
+    Ok(done.map(|simulation| seen.end(simulation.report())))
+}
+
+/// The same as a page with a moving picture, under the name of its method and what is told of it.
+///
+/// # Errors
+/// [`SimError`].
+pub fn page(
+    scene: &Scene,
+    wanted: &Wanted,
+    (name, facts): (&str, &str),
+    desk: &Desk,
+) -> Result<Option<String>, SimError> {
+    let mut recorded: Option<Recording> = None;
+    let done = see_all(scene, wanted, desk, |simulation, frame| {
+        let recording = recorded.get_or_insert_with(|| Recording::new(simulation.model()));
+        recording.add(frame);
+    })?;
+    let title = scene.title.as_deref().unwrap_or("a run");
+    let page = |recording: &Recording| {
+        let motion = Motion {
+            name,
+            facts,
+            recording,
+        };
+        view::page(scene, title, &[motion])
+    };
+    Ok(done.and(recorded.as_ref()).map(page))
+}
+
+/// Runs a scene to its end, and shows each frame; none where nobody waits for it.
+fn see_all(
+    scene: &Scene,
+    wanted: &Wanted,
+    desk: &Desk,
+    mut see: impl FnMut(&Simulation, &Frame),
+) -> Result<Option<Simulation>, SimError> {
     let mut simulation = Simulation::new(scene, &wanted.plan)?;
     if !wanted.exact {
         simulation = simulation.interpolated();
     }
-    let mut seen = Seen::new(scene);
     let Some(times) = &wanted.times else {
         while !simulation.is_done() {
             if let Some(frame) = simulation.advance()? {
-                seen.add(&frame);
+                see(&simulation, &frame);
             }
             if !heeded(&simulation, desk) {
                 return Ok(None);
             }
         }
-        return Ok(Some(seen.end(simulation.report())));
+        return Ok(Some(simulation));
     };
     for t in times.iter() {
         loop {
@@ -104,12 +143,12 @@ pub fn run(scene: &Scene, wanted: &Wanted, desk: &Desk) -> Result<Option<Traject
                 return Ok(None);
             }
             if let Some(frame) = frame {
-                seen.add(&frame);
+                see(&simulation, &frame);
                 break;
             }
         }
     }
-    Ok(Some(seen.end(simulation.report())))
+    Ok(Some(simulation))
 }
 
 /// Tells how far it is, and asks whether to go on.

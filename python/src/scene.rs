@@ -14,7 +14,7 @@ use pyo3::types::{PyBytes, PyDict};
 use crate::attend::attend;
 use crate::errors;
 use crate::replace::replace;
-use crate::run::{Arguments, Wanted, run};
+use crate::run::{Arguments, Wanted, page, run};
 
 const FISH: &str = include_str!("../../scenes/fish-chain.toml");
 
@@ -110,6 +110,22 @@ impl NativeScene {
         let outcome = attend(py, progress, move |desk| run(&scene, &wanted, desk))?;
         match outcome.map_err(|error| errors::of_run(py, &error))? {
             Some(trajectory) => trajectory.into_dict(py),
+            None => Err(PyValueError::new_err("the run was stopped")),
+        }
+    }
+
+    /// A page with a moving picture of a run, under a name and what is told of it.
+    fn page(
+        &self,
+        py: Python<'_>,
+        arguments: Arguments,
+        name: String,
+        facts: String,
+    ) -> PyResult<String> {
+        let (scene, wanted) = (self.shared(), Wanted::new(arguments)?);
+        let work = move |desk: &_| page(&scene, &wanted, (&name, &facts), desk);
+        match attend(py, None, work)?.map_err(|error| errors::of_run(py, &error))? {
+            Some(page) => Ok(page),
             None => Err(PyValueError::new_err("the run was stopped")),
         }
     }

@@ -1,8 +1,11 @@
 """Runs: the numbers of the command, arrays, threads, signals."""
 
 import _thread
+import html
 import pickle
+import re
 import subprocess
+import sys
 import threading
 import time
 
@@ -190,3 +193,31 @@ def test_parquet_keeps_all_digits(scene, tmp_path):
     run = scene.simulate(1)
     run.to_parquet(tmp_path / "run.parquet")
     assert pandas.read_parquet(tmp_path / "run.parquet").equals(run.to_pandas())
+
+
+def test_a_run_is_shown_in_the_browser(scene, tmp_path, monkeypatch):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    run = scene.simulate(np.linspace(0, 1, 11))
+    picture = run.show(tmp_path / "run.html")
+    assert opened == [(tmp_path / "run.html").as_uri()]
+    page = (tmp_path / "run.html").read_text(encoding="utf-8")
+    assert page == picture.page == run.page()
+    assert page.startswith("<!doctype html>") and '"frames":11' in page and "order 16" in page
+
+
+def test_a_run_is_shown_below_a_notebooks_cell(scene, monkeypatch):
+    class Shell:
+        kernel = object()
+
+    class Notebook:
+        get_ipython = Shell
+
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    monkeypatch.setitem(sys.modules, "IPython", Notebook)
+    frame = scene.simulate(0.5, step=0.25).show()._repr_html_()
+    assert not opened
+    # As a browser reads the attribute, it is the page.
+    document = re.fullmatch(r'<iframe srcdoc="([^"]*)".*></iframe>', frame, re.DOTALL).group(1)
+    assert html.unescape(document) == scene.simulate(0.5, step=0.25).page()

@@ -113,7 +113,7 @@ def ensemble(
     threads = _cores() if workers is None else count(workers, "workers, a number of threads,")
     natives = [scene._native for scene in scenes]
     rows = _ensemble(natives, arguments, threads, reporter(progress, len(scenes), "runs"))
-    runs = [row if isinstance(row, Exception) else Run._of(row, scene) for row, scene in zip(rows, scenes)]
+    runs = [row if isinstance(row, Exception) else Run._of(row, scene, arguments) for row, scene in zip(rows, scenes)]
     return Ensemble(scenes, runs)
 
 

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
+import sys
+import tempfile
+import webbrowser
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -35,6 +40,23 @@ class Drive(NamedTuple):
     """The mean on the child since the frame before, in the reference frame, N m, (T, 3)."""
 
 
+class Picture:
+    """A moving picture of a run, as ``Run.show`` gives it; a notebook shows it below the cell."""
+
+    def __init__(self, page: str) -> None:
+        self.page = page
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.page, quote=True)
+        return f'<iframe srcdoc="{page}" style="width: 100%; height: 640px; border: 0" title="a run"></iframe>'
+
+
+def _is_notebook() -> bool:
+    ipython = sys.modules.get("IPython")
+    shell = None if ipython is None else ipython.get_ipython()
+    return hasattr(shell, "kernel")
+
+
 class Run:
     """A run of a scene: T frames of N bodies.
 
@@ -59,8 +81,17 @@ class Run:
     The energy less the work is what a motion keeps.
     """
 
-    def __init__(self, scene: Scene, names: list[str], table: Array, attitude: Array, report: dict[str, Any]) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        names: list[str],
+        table: Array,
+        attitude: Array,
+        report: dict[str, Any],
+        arguments: tuple[Any, ...],
+    ) -> None:
         self.scene = scene
+        self._arguments = arguments
         self.names = tuple(names)
         self.table = table
         self.attitude = attitude
@@ -68,8 +99,9 @@ class Run:
         self._place = {name: k for k, name in enumerate(self.names)}
 
     @classmethod
-    def _of(cls, parts: dict[str, Any], scene: Scene) -> Run:
-        return cls(scene, parts["names"], parts["table"], parts["attitude"], json.loads(parts["report"]))
+    def _of(cls, parts: dict[str, Any], scene: Scene, arguments: tuple[Any, ...]) -> Run:
+        report = json.loads(parts["report"])
+        return cls(scene, parts["names"], parts["table"], parts["attitude"], report, arguments)
 
     def column(self, name: str) -> Array:
         """A column by its name, such as ``"tail.wx"``: (T,)."""
@@ -191,6 +223,36 @@ class Run:
         }
         data = {name: (dims, array, {"units": unit}) for name, (dims, array, unit) in arrays.items()}
         return xarray.Dataset(data, coordinates, {"report": json.dumps(self.report)})
+
+    def page(self) -> str:
+        """A page with a moving picture of the run, and what it keeps below: HTML in one piece, without network.
+
+        The run is made once more for it, from the same scene in the same steps. At most 3000 frames are kept.
+        """
+        report = self.report
+        kept = "energy" if report["energy_is_kept"] else "energy less work"
+        facts = (
+            f"order {report['method_order']}, steps of {report['step_seconds']:.3g} s, "
+            f"{kept} within {report['energy_error_max_joules']:.4g} J"
+        )
+        return self.scene._native.page(self._arguments, report["method"], facts)
+
+    def show(self, path: str | os.PathLike[str] | None = None) -> Picture:
+        """Show the run as a moving picture: in a notebook below the cell, elsewhere in the browser.
+
+        path  where the page is written; unless given, to a file of the system's temporary folder, and in a notebook
+              nowhere.
+        """
+        picture = Picture(self.page())
+        in_notebook = _is_notebook()
+        if path is None and not in_notebook:
+            handle, path = tempfile.mkstemp(".html", "lgvi-")
+            os.close(handle)
+        if path is not None:
+            Path(path).write_text(picture.page, encoding="utf-8")
+        if path is not None and not in_notebook:
+            webbrowser.open(Path(path).absolute().as_uri())
+        return picture
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Draw angular velocities, and what the motion keeps, over time; to a file where a path is given.

@@ -123,7 +123,7 @@ class Scene:
         """
         arguments = plan(t, method, step, accuracy, every, full, estimate, exact)
         parts = self._native.simulate(arguments, reporter(progress, arguments[0], "s"))
-        return Run._of(parts, self)
+        return Run._of(parts, self, arguments)
 
     @property
     def title(self) -> str | None:
