@@ -478,7 +478,9 @@ impl<L: DiscreteLagrangian> Work<L> {
         let here = self.c.clone();
         self.c.read(&self.coordinates);
         self.evaluate(lagrangian, state, h);
-        self.is_noise(lagrangian, (state, h), (tolerance, 1));
+        for time in 1..=MEASUREMENTS {
+            self.is_noise(lagrangian, (state, h), (tolerance, time));
+        }
         self.c.copy_from(&here);
         self.evaluate(lagrangian, state, h);
         self.residual();
