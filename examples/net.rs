@@ -145,7 +145,7 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
 
 /// The net at some times of its fall.
 fn draw() -> Result<(), Box<dyn core::error::Error>> {
-    let net = Net { side: 12 };
+    let net = Net { side: 16 };
     let mut integrator = Variational::new(net.discretise(Quadrature::Midpoint));
     let mut state = start(net);
     let mut lines = Vec::new();
@@ -165,7 +165,7 @@ fn draw() -> Result<(), Box<dyn core::error::Error>> {
         ..Panel::default()
     };
     let drawn = Figure {
-        title: "A net of 12 x 12 rigid nodes falls".into(),
+        title: "A net of 16 x 16 rigid nodes falls".into(),
         plot_height: 900.0,
         panels: vec![panel],
         ..Figure::default()
