@@ -7,6 +7,7 @@ use dvi::{
 use lie::{Over, SO3, Scalar};
 
 use crate::means::{Body, top};
+use crate::steps::ByJets;
 
 /// A body whose mass grows with time; its formula is made anew for each evaluation.
 #[derive(Clone, Copy)]
@@ -41,36 +42,11 @@ impl DiscreteLagrangian for Growing {
     }
 }
 
-/// The same by dual numbers alone.
-#[derive(Clone, Copy)]
-struct GrowingByJets;
-
-impl System for GrowingByJets {
-    type Group = SO3;
-}
-
-impl DiscreteLagrangian for GrowingByJets {
-    type Workspace<S: Scalar> = ();
-    fn value<S: Scalar>(&self, at: Context<S>, g: &SO3<S>, f: &SO3<S>, h: S) -> S {
-        Growing.value(at, g, f, h)
-    }
-    fn derivatives<S: Scalar>(
-        &self,
-        at: Context<S>,
-        g: &Over<SO3, S>,
-        f: &Over<SO3, S>,
-        h: S,
-        (): &mut (),
-        out: &mut Derivatives<SO3, S>,
-    ) {
-        out.by_jets(&Growing::now(at.t), at, g, f, h);
-    }
-}
-
 #[test]
 fn what_is_made_anew_for_each_evaluation_is_not_recorded() {
     let (mut one, mut two) = (top(), top());
-    let (mut by_value, mut by_jets) = (Variational::new(Growing), Variational::new(GrowingByJets));
+    let (mut by_value, mut by_jets) =
+        (Variational::new(Growing), Variational::new(ByJets(Growing)));
     for _ in 0..20 {
         let report = by_value.step(&mut one, 0.1).unwrap();
         by_jets.step(&mut two, 0.1).unwrap();

@@ -11,7 +11,7 @@ use crate::means::{Top, top};
 
 /// A discrete Lagrangian by dual numbers whatever can be recorded.
 #[derive(Clone, Copy)]
-struct ByJets<L>(L);
+pub struct ByJets<L>(pub L);
 
 impl<L: DiscreteLagrangian> System for ByJets<L> {
     type Group = L::Group;
