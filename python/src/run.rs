@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sim::table::Rows;
 use sim::{Choice, Frame, Method, Plan, Report, Schedule, SimError, Simulation};
-use view::{Motion, Recording};
+use view::{Motion, Recording, facts};
 
 use crate::attend::Desk;
 
@@ -87,31 +87,27 @@ pub fn run(scene: &Scene, wanted: &Wanted, desk: &Desk) -> Result<Option<Traject
     Ok(done.map(|simulation| seen.end(simulation.report())))
 }
 
-/// The same as a page with a moving picture, under the name of its method and what is told of it.
+/// The same as a page with a moving picture.
 ///
 /// # Errors
 /// [`SimError`].
-pub fn page(
-    scene: &Scene,
-    wanted: &Wanted,
-    (name, facts): (&str, &str),
-    desk: &Desk,
-) -> Result<Option<String>, SimError> {
+pub fn page(scene: &Scene, wanted: &Wanted, desk: &Desk) -> Result<Option<String>, SimError> {
     let mut recorded: Option<Recording> = None;
     let done = see_all(scene, wanted, desk, |simulation, frame| {
         let recording = recorded.get_or_insert_with(|| Recording::new(simulation.model()));
         recording.add(frame);
     })?;
     let title = scene.title.as_deref().unwrap_or("a run");
-    let page = |recording: &Recording| {
+    let page = |(simulation, recording): (Simulation, &Recording)| {
+        let report = simulation.report();
         let motion = Motion {
-            name,
-            facts,
+            name: report.method,
+            facts: &facts(&report),
             recording,
         };
         view::page(scene, title, &[motion])
     };
-    Ok(done.and(recorded.as_ref()).map(page))
+    Ok(done.zip(recorded.as_ref()).map(page))
 }
 
 /// Runs a scene to its end, and shows each frame; none where nobody waits for it.

@@ -114,16 +114,10 @@ impl NativeScene {
         }
     }
 
-    /// A page with a moving picture of a run, under a name and what is told of it.
-    fn page(
-        &self,
-        py: Python<'_>,
-        arguments: Arguments,
-        name: String,
-        facts: String,
-    ) -> PyResult<String> {
+    /// A page with a moving picture of a run.
+    fn page(&self, py: Python<'_>, arguments: Arguments) -> PyResult<String> {
         let (scene, wanted) = (self.shared(), Wanted::new(arguments)?);
-        let work = move |desk: &_| page(&scene, &wanted, (&name, &facts), desk);
+        let work = move |desk: &_| page(&scene, &wanted, desk);
         match attend(py, None, work)?.map_err(|error| errors::of_run(py, &error))? {
             Some(page) => Ok(page),
             None => Err(PyValueError::new_err("the run was stopped")),

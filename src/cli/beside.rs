@@ -1,11 +1,10 @@
 //! The same scene by a second method, for the eye.
 
 use articulated_fluid::Scene;
-use sim::number::{scientific, three_digits};
 use sim::{Choice, Method, Plan, Schedule, Simulation};
 #[cfg(feature = "chart")]
 use study::{baseline::Baseline, contender::Contender};
-use view::Recording;
+use view::{Recording, facts};
 
 use super::error::CliError;
 use super::scene::Loaded;
@@ -103,30 +102,15 @@ fn structure(
     for frame in simulation.by_ref() {
         recording.add(&frame?);
     }
-    let facts = facts(&simulation);
+    let facts = facts(&simulation.report());
     Ok(Second { recording, facts })
-}
-
-/// What is told of a run beside its method's name.
-pub fn facts(simulation: &Simulation) -> String {
-    let report = simulation.report();
-    let what = match report.energy_is_kept {
-        true => "energy",
-        false => "energy less work",
-    };
-    format!(
-        "order {}, steps of {} s, {what} within {} J",
-        report.method_order,
-        three_digits(report.step_seconds),
-        scientific(report.energy_error_max_joules)
-    )
 }
 
 #[cfg(feature = "chart")]
 mod explicit {
     use std::fmt::Display;
 
-    use sim::number::decimal;
+    use sim::number::{decimal, three_digits};
     use sim::{Clock, Due, Frame, Run};
     use study::baseline::Tolerance;
 
@@ -168,12 +152,9 @@ mod explicit {
                 let mut run = Run::new(integrator, start, clock);
                 let how = format!("steps of {} s", three_digits(clock.step()));
                 let ended = fill(&mut recording, times, |t| {
-                    let (steps, ahead) = match clock.is_end(t) {
-                        true => (clock.steps(), 0.0),
-                        false => clock.locate(t),
-                    };
-                    run.advance(steps).map_err(text)?;
-                    let state = run.look(&Due { steps, ahead, t }).map_err(text)?;
+                    let due = Due::at(&clock, t);
+                    run.advance(due.steps).map_err(text)?;
+                    let state = run.look(&due).map_err(text)?;
                     Frame::new(model, state).map_err(text)
                 });
                 (how, ended)

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use articulated_fluid::Scene;
 use sim::file::{AtomicFile, CompleteFile, FileError, is_same};
 use sim::{Frame, Simulation, Table};
-use view::{Arrays, Motion, NpzError, Recording, glb, page};
+use view::{Arrays, Motion, NpzError, Recording, facts, glb, page};
 
-use super::beside::{Beside, facts};
+use super::beside::Beside;
 use super::error::CliError;
 use super::output;
 use super::scene::Loaded;
@@ -230,7 +230,7 @@ fn whole_page(
     (simulation, recording): (&Simulation, &Recording),
     beside: Option<Beside>,
 ) -> Result<String, CliError> {
-    let facts = facts(simulation);
+    let facts = facts(&simulation.report());
     let first = Motion {
         name: simulation.method().name(),
         facts: &facts,

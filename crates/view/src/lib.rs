@@ -38,7 +38,7 @@ mod solid;
 
 pub use arrays::Arrays;
 pub use gltf::glb;
-pub use motion::Motion;
+pub use motion::{Motion, facts};
 pub use npz::NpzError;
 pub use page::page;
 pub use recording::{MOST_FRAMES, Recording};

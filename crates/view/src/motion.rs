@@ -1,5 +1,8 @@
 //! What is shown of a run.
 
+use sim::Report;
+use sim::number::{scientific, three_digits};
+
 use crate::recording::Recording;
 
 /// A motion on a page.
@@ -11,4 +14,18 @@ pub struct Motion<'a> {
     pub facts: &'a str,
     /// What was seen of it.
     pub recording: &'a Recording,
+}
+
+/// What is told of a run beside its method's name: order, step, and how far its energy is from what the motion keeps.
+pub fn facts(report: &Report) -> String {
+    let what = match report.energy_is_kept {
+        true => "energy",
+        false => "energy less work",
+    };
+    format!(
+        "order {}, steps of {} s, {what} within {} J",
+        report.method_order,
+        three_digits(report.step_seconds),
+        scientific(report.energy_error_max_joules)
+    )
 }

@@ -229,13 +229,7 @@ class Run:
 
         The run is made once more for it, from the same scene in the same steps. At most 3000 frames are kept.
         """
-        report = self.report
-        kept = "energy" if report["energy_is_kept"] else "energy less work"
-        facts = (
-            f"order {report['method_order']}, steps of {report['step_seconds']:.3g} s, "
-            f"{kept} within {report['energy_error_max_joules']:.4g} J"
-        )
-        return self.scene._native.page(self._arguments, report["method"], facts)
+        return self.scene._native.page(self._arguments)
 
     def show(self, path: str | os.PathLike[str] | None = None) -> Picture:
         """Show the run as a moving picture: in a notebook below the cell, elsewhere in the browser.
