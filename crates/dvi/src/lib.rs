@@ -72,7 +72,7 @@ mod variation;
 mod variational;
 
 pub use composition::Composition;
-pub use gauss::Gauss;
+pub use gauss::{Ensemble, Gauss};
 pub use pilot::{Pilot, PilotError};
 pub use step::{Cause, Hint, Integrator, Path, StepError, StepReport, check_momentum, check_step};
 pub use system::{

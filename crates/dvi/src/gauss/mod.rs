@@ -1,9 +1,14 @@
 //! Variational Gauss integrators of order $2 s$ on a Lie group.
 
+mod abreast;
+mod change;
+mod ensemble;
 mod extrapolation;
 mod newton;
 mod predictor;
+mod progress;
 mod solve;
+mod solver;
 mod stages;
 mod stepper;
 mod sweep;
@@ -11,17 +16,14 @@ mod tableau;
 mod update;
 mod work;
 
+use lie::Retraction;
 use lie::lanes::InstructionSet;
-use lie::{Cayley, Retraction, VectorSpace};
 
-use crate::step::{check_momentum, check_step, finite};
 use crate::{
-    Cause, ContinuousSystem, FirstVariation, Integrator, Means, Path, State, StepError, StepReport,
-    Variation,
+    ContinuousSystem, FirstVariation, Integrator, Path, State, StepError, StepReport, Variation,
 };
-use stepper::{MakeStepper, Stepper, stepper};
-use tableau::Tableau;
-use work::Limits;
+pub use ensemble::Ensemble;
+use solver::Solver;
 
 /// A variational integrator of order $2 s$ by Gauss collocation with $s$ stages, from 1 to 8.
 ///
@@ -73,15 +75,7 @@ use work::Limits;
 /// ```
 pub struct Gauss<C: ContinuousSystem> {
     system: C,
-    tableau: &'static Tableau,
-    limits: Limits,
-    instructions: InstructionSet,
-    steps: u64,
-    /// Makes the work for the retraction that was chosen.
-    make: MakeStepper<C>,
-    work: Option<Box<dyn Stepper<C>>>,
-    /// Those of the steps that the work is for.
-    means: Means,
+    solver: Solver<C>,
 }
 
 impl<C: ContinuousSystem + 'static> Gauss<C> {
@@ -100,24 +94,13 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
 
     /// Of 1 to 8 stages.
     pub(crate) fn of(system: C, stages: usize) -> Self {
-        Self {
-            system,
-            tableau: Tableau::gauss(stages),
-            limits: Limits {
-                tolerance: 0.0,
-                sweeps_only: false,
-            },
-            instructions: InstructionSet::widest(stages),
-            steps: 0,
-            make: stepper::<C, Cayley>,
-            work: None,
-            means: Means::default(),
-        }
+        let solver = Solver::new(stages);
+        Self { system, solver }
     }
 
     /// The same in another retraction's chart: another method of the same order.
     pub fn with_retraction<R: Retraction>(mut self) -> Self {
-        (self.make, self.work) = (stepper::<C, R>, None);
+        self.solver.set_retraction::<R>();
         self
     }
 
@@ -126,13 +109,13 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
     /// Momentum maps of left translations, and of cyclic coordinates, do not feel it; those of other symmetries and the energy do, where it
     /// is looser than the method's own error of a step.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
-        self.limits.tolerance = tolerance;
+        self.solver.limits.tolerance = tolerance;
         self
     }
 
     /// The same without Newton's method: a step too long for the plain iteration is refused at once.
     pub fn by_sweeps_only(mut self) -> Self {
-        self.limits.sweeps_only = true;
+        self.solver.limits.sweeps_only = true;
         self
     }
 
@@ -140,8 +123,7 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
     ///
     /// The steps differ by rounding alone.
     pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
-        self.instructions = instructions;
-        self.work = None;
+        self.solver.set_instructions(instructions);
         self
     }
 
@@ -149,93 +131,13 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
     pub fn system(&self) -> &C {
         &self.system
     }
-
-    fn error(&self, state: &State<C::Group>, h: f64, cause: Cause) -> StepError {
-        cause.at((self.steps, state.t, h))
-    }
-
-    /// Solves the stages of a step; the state stays as it is.
-    fn solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, StepError> {
-        let solved = self.try_to_solve(state, h);
-        solved.map_err(|cause| self.error(state, h, cause))
-    }
-
-    fn try_to_solve(&mut self, state: &State<C::Group>, h: f64) -> Result<StepReport, Cause> {
-        check_step(&self.system, (state.t, &state.g), h)?;
-        let (system, tableau) = (&self.system, self.tableau);
-        let degenerate = || system.without_inertia(state.t, &state.g);
-        let work = match self.work.take() {
-            Some(work) if work.fits(&state.g) => work,
-            _ => match degenerate() {
-                Some(coordinate) => return Err(Cause::Degenerate { coordinate }),
-                None => {
-                    let start = (state.t, &state.g);
-                    let (work, means) = (self.make)(self.instructions, tableau, system, start);
-                    self.means = means;
-                    work
-                }
-            },
-        };
-        let work = self.work.insert(work);
-        check_momentum(&state.mu, work.shape())?;
-        let solved = work.solve((system, tableau), (state, h), self.limits);
-        let means = self.means;
-        let solved = solved.map(|report| StepReport { means, ..report });
-        solved.map_err(|cause| match degenerate() {
-            Some(coordinate) if cause == Cause::NotFinite => Cause::Degenerate { coordinate },
-            _ => cause,
-        })
-    }
-
-    /// The step of a system without unknowns: time goes on.
-    fn pass(&mut self, state: &mut State<C::Group>, h: f64) -> Result<StepReport, StepError> {
-        let refused = |cause: Cause| cause.at((self.steps, state.t, h));
-        check_step(&self.system, (state.t, &state.g), h).map_err(refused)?;
-        match self.system.is_defined(state.t + h, &state.g) {
-            true => state.t += h,
-            false => return Err(self.error(state, h, Cause::NotFinite)),
-        }
-        self.steps += 1;
-        Ok(StepReport::default())
-    }
-
-    /// Shows the step that was solved last: its start, its stages, its end.
-    fn show(
-        &self,
-        (start, h): (&State<C::Group>, f64),
-        end: &State<C::Group>,
-        see: &mut dyn FnMut(Path<C::Group>),
-    ) {
-        let nodes = &self.tableau.nodes;
-        let mut along = vec![start.clone(); nodes.len() + 2];
-        for (i, (node, stage)) in nodes.iter().zip(&mut along[1..]).enumerate() {
-            stage.t = start.t + node * h;
-            // A system without unknowns has no stages to solve.
-            if let Some(work) = &self.work
-                && start.mu.dim() > 0
-            {
-                work.stage(i, stage);
-            }
-        }
-        along[nodes.len() + 1].copy_from(end);
-        see(Path::new(&self.tableau.rule, &along, h));
-    }
-
-    /// Takes the step that was solved.
-    fn accept(&mut self, state: &mut State<C::Group>, h: f64) -> Result<(), StepError> {
-        let (system, work) = (&self.system, self.work.as_mut());
-        let accepted = work.and_then(|work| work.accept(system, state, h));
-        accepted.ok_or_else(|| self.error(state, h, Cause::NotFinite))?;
-        self.steps += 1;
-        Ok(())
-    }
 }
 
 impl<C: ContinuousSystem + 'static> Integrator for Gauss<C> {
     type Group = C::Group;
 
     fn order(&self) -> u32 {
-        2 * self.tableau.nodes.len() as u32
+        2 * self.solver.stages() as u32
     }
 
     /// In general not: the chart is centred at the step's start, and the same step backwards is another of the same order.
@@ -248,24 +150,11 @@ impl<C: ContinuousSystem + 'static> Integrator for Gauss<C> {
     }
 
     fn step(&mut self, state: &mut State<C::Group>, h: f64) -> Result<StepReport, StepError> {
-        if state.mu.dim() == 0 {
-            return self.pass(state, h);
-        }
-        let report = self.solve(state, h)?;
-        self.accept(state, h)?;
-        Ok(report)
+        self.solver.step(&self.system, state, h)
     }
 
     fn peek(&mut self, state: &State<C::Group>, h: f64) -> Result<State<C::Group>, StepError> {
-        if state.mu.dim() == 0 {
-            let mut ahead = state.clone();
-            return self.pass(&mut ahead, h).map(|_| ahead);
-        }
-        self.solve(state, h)?;
-        let ahead = self.work.as_ref().map(|work| work.ahead((state, h)));
-        let defined = ahead.filter(|ahead| self.system.is_defined(ahead.t, &ahead.g));
-        let ahead = defined.ok_or(Cause::NotFinite).and_then(finite);
-        ahead.map_err(|cause| self.error(state, h, cause))
+        self.solver.peek(&self.system, state, h)
     }
 
     fn step_along(
@@ -276,7 +165,7 @@ impl<C: ContinuousSystem + 'static> Integrator for Gauss<C> {
     ) -> Result<StepReport, StepError> {
         let start = state.clone();
         let report = self.step(state, h)?;
-        self.show((&start, h), state, see);
+        self.solver.show((&start, h), state, see);
         Ok(report)
     }
 
@@ -287,12 +176,12 @@ impl<C: ContinuousSystem + 'static> Integrator for Gauss<C> {
         see: &mut dyn FnMut(Path<C::Group>),
     ) -> Result<State<C::Group>, StepError> {
         let ahead = self.peek(state, h)?;
-        self.show((state, h), &ahead, see);
+        self.solver.show((state, h), &ahead, see);
         Ok(ahead)
     }
 
     fn reset(&mut self) {
-        (self.steps, self.work) = (0, None);
+        self.solver.reset();
     }
 }
 
@@ -303,19 +192,6 @@ impl<C: ContinuousSystem + 'static> FirstVariation for Gauss<C> {
         variations: &mut [Variation<C::Group>],
         h: f64,
     ) -> Result<StepReport, StepError> {
-        if state.mu.dim() == 0 {
-            return self.pass(state, h);
-        }
-        let report = self.solve(state, h)?;
-        let mut carried = variations.to_vec();
-        if let Some(work) = &mut self.work {
-            work.carry((&self.system, self.tableau), (state, h), &mut carried);
-        }
-        if !carried.iter().all(Variation::is_finite) {
-            return Err(self.error(state, h, Cause::NotFinite));
-        }
-        self.accept(state, h)?;
-        variations.clone_from_slice(&carried);
-        Ok(report)
+        self.solver.step_varied(&self.system, state, variations, h)
     }
 }

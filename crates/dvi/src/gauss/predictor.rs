@@ -1,12 +1,12 @@
 //! The first guess of a step: the velocities and forces of the step before, continued.
 
-use lie::{Batch, Retraction};
+use lie::{Batch, DualOver, Retraction, Scalar};
 
 use super::extrapolation::{Rows, STEPS, continuation, extrapolation};
 use super::stages::{Matrix, Stages};
 use super::sweep::Sweep;
 use super::tableau::Tableau;
-use crate::{ContinuousSystem, State};
+use crate::ContinuousSystem;
 
 /// After a first sweep that changes the rates more than this, the motion is no polynomial over several steps.
 const ROUGH: f64 = 0.05;
@@ -32,7 +32,7 @@ struct Past<S> {
     tau: Stages<S>,
 }
 
-impl<S: Batch<Item = f64>> Predictor<S> {
+impl<S: Batch> Predictor<S> {
     pub(super) fn new(stages: usize, dim: usize) -> Self {
         let past = || Past {
             xi: Stages::new(stages, dim),
@@ -70,20 +70,20 @@ impl<S: Batch<Item = f64>> Predictor<S> {
         sweep.write_velocities(&mut past.xi, &mut past.tau);
     }
 
-    /// Places the stages of a step from `state`; false where there is no step before, and they start from the state's own velocity.
+    /// Places the stages of a step from the time `t` and the momentum `mu`; false where there is no step before, and they start from the velocity there.
     pub(super) fn guess<C: ContinuousSystem, R: Retraction>(
         &mut self,
         (system, tableau): (&C, &Tableau),
-        (state, h): (&State<C::Group>, f64),
+        (t, mu, h): (S::Item, &DualOver<C::Group, S::Item>, f64),
         sweep: &mut Sweep<C, S>,
     ) -> bool {
         let known = self.is_known();
         if known {
             self.extrapolate(tableau, h, sweep);
         } else {
-            sweep.rates_at(system, state.t, &state.mu);
+            sweep.rates_at(system, t, mu);
         }
-        sweep.place_by_velocities::<R>(h, &state.mu);
+        sweep.place_by_velocities::<R>(S::Item::from_f64(h), mu);
         known
     }
 

@@ -3,6 +3,7 @@
 use lie::{Batch, Retraction, VectorSpace};
 
 use super::newton::SweepNewton;
+use super::progress::{AtEnd, EXHAUSTED, MEASURES_BELOW, Progress, ROUNDING, STAYS, looks_at_end};
 use super::sweep::Side;
 use super::work::{Limits, Method, Start, Work};
 use crate::numerics::numbers::larger;
@@ -10,21 +11,11 @@ use crate::numerics::sizes::relative_beside;
 use crate::{Cause, ContinuousSystem, Hint, StepReport};
 
 /// Sweeps before the plain iteration is given up.
-const MAX_SWEEPS: u32 = 60;
+pub(super) const MAX_SWEEPS: u32 = 60;
 /// Newton iterations before a step is given up.
 const MAX_NEWTON: u32 = 40;
-/// A change below this that no longer shrinks is rounding.
-const ROUNDING: f64 = 1e-11;
-/// Sweeps without a smaller change.
-const IDLE: u32 = 3;
-/// The remaining error, and the change, at which iterating on is rounding alone.
-const EXHAUSTED: [f64; 2] = [0.1 * f64::EPSILON, 4.0 * f64::EPSILON];
 /// Contraction of Newton's method that keeps its matrix, from step to step too.
 const KEEPS_MATRIX: f64 = 0.3;
-/// Sweeps from one look at $\pi_0$ to the next.
-const LOOKS_AT_END: u32 = 4;
-/// A change of $\pi_0$ this much larger than that of the rates, both relative, is no echo of it.
-const KNOWN_BETTER: f64 = 0.01;
 /// A change below this is at a root; it may rise as an approximate matrix lets it.
 const AT_ROOT: f64 = 1e-3;
 /// The shortest part of a correction that is tried where the whole makes the change grow.
@@ -35,12 +26,8 @@ const LONG_STEPS: u32 = 16;
 const NEWTON_LIMIT: usize = 1000;
 /// Unknowns beyond which one step by Newton's method costs more than trying the plain iteration again.
 const FEW: usize = 300;
-/// A mismatch or a change of which one more iteration leaves at least this part is rounding, where it is small.
-const STAYS: f64 = 0.5;
 /// Steps for which noise is taken to be as it was measured.
 const NOISE_HOLDS: u32 = 16;
-/// Noise is measured only below this change: above, the iteration diverges.
-const MEASURES_BELOW: f64 = 1e-4;
 /// The weight of a single block's mismatch, relative to its own momentum, beside that of its kind.
 const OF_BLOCK: f64 = 1e-7;
 
@@ -170,11 +157,13 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     ) -> Result<(), Cause> {
         self.sweep.set_parameters(system.parameters());
         self.sweep.start_at(&state.g);
-        self.sweep.forget_rounding();
+        self.sweep.judge.forget_rounding();
         self.sweep.weigh(system, (state.t, &state.mu));
-        let known = self
-            .predictor
-            .guess::<C, R>((system, tableau), (state, h), &mut self.sweep);
+        let known = self.predictor.guess::<C, R>(
+            (system, tableau),
+            (state.t, &state.mu, h),
+            &mut self.sweep,
+        );
         if !known && !self.sweep.is_finite() {
             return Err(Cause::NotFinite);
         }
@@ -206,44 +195,37 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         for (start, drift) in self.start.iter_mut().zip(&self.drift) {
             *start += drift;
         }
-        let enough = tolerance.max(8.0 * f64::EPSILON);
-        let (mut changes, mut before) = (Changes::default(), f64::INFINITY);
+        let mut progress = Progress::default();
         let mut report = StepReport::default();
         for iterations in 2..=MAX_SWEEPS {
             self.sweep
                 .run_from_start::<R>(system, (state.t, h), &self.start);
-            changes.push(self.sweep.change(h));
+            let change = self.sweep.change(h);
+            progress.push(change);
             if iterations == 2 {
-                self.predictor.judge(changes.now);
+                self.predictor.judge(change);
             }
             report = StepReport {
                 iterations,
-                residual: changes.now,
+                residual: change,
                 ..StepReport::default()
             };
-            let solved = changes.are_solved(tolerance);
-            if solved || iterations % LOOKS_AT_END == 0 {
-                let mismatch = self.mismatch::<R>((state, h), solved);
-                report.residual = larger(changes.now, mismatch);
-                let stays = mismatch < ROUNDING && mismatch > STAYS * before;
-                if solved && (mismatch <= enough || stays) {
-                    return Ok(Ended::Solved(report));
-                }
-                if solved {
-                    before = mismatch;
-                }
-                if solved || (mismatch > enough && mismatch > KNOWN_BETTER * changes.now) {
-                    self.start.copy_from_slice(&self.wanted);
-                    changes = Changes::default();
+            let settled = progress.is_settled(tolerance);
+            if settled || looks_at_end(iterations) {
+                let mismatch = self.mismatch::<R>((state, h), settled);
+                report.residual = larger(change, mismatch);
+                match progress.at_end((settled, mismatch), tolerance) {
+                    AtEnd::Solved => return Ok(Ended::Solved(report)),
+                    AtEnd::Corrects => self.start.copy_from_slice(&self.wanted),
+                    AtEnd::Waits => {}
                 }
             }
-            if changes.idle == IDLE && changes.now < MEASURES_BELOW {
+            if progress.stands_still() {
                 self.measure_noise::<R>(system, (state, h));
-                changes.idle += 1;
                 continue;
             }
-            if changes.diverge() {
-                report.residual = changes.best;
+            if progress.diverges() {
+                report.residual = progress.best();
                 break;
             }
         }
@@ -280,19 +262,19 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             *number = a - b;
         }
         kinds.raise(parts, numbers);
-        let noise = |kind| sweep.rounding_of_momentum(kind);
+        let noise = |kind| sweep.judge.rounding_of_momentum(kind);
         let mut in_block = 0.0;
         if last {
             difference.read(numbers);
             sizes.set_scales(&[&state.mu, &sweep.end.momentum]);
-            if sweep.is_driven() {
-                sizes.raise_scales(|kind| sweep.least_momentum(kind));
+            if sweep.judge.is_driven() {
+                sizes.raise_scales(|kind| sweep.judge.least_momentum(kind));
             }
             in_block = sizes.relative_above(difference, noise);
         }
         let kinds = parts.iter().zip(wholes).enumerate();
         kinds.fold(OF_BLOCK * in_block, |found, (kind, (part, size))| {
-            let size = larger(*size, sweep.least_momentum(kind));
+            let size = larger(*size, sweep.judge.least_momentum(kind));
             larger(found, relative_beside(*part, size, noise(kind)))
         })
     }
@@ -307,7 +289,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
         self.guess::<R>(method, (state, h))?;
         let newton = self.newton.take();
         let mut newton = newton.unwrap_or_else(|| SweepNewton::new(method.1, &state.g));
-        newton.weigh(self.sweep.weights());
+        newton.weigh(self.sweep.judge.weights());
         let ended = self.newton_with::<R>(&mut newton, method.0, (state, h), tolerance);
         self.newton = Some(newton);
         Ok(ended)
@@ -383,44 +365,4 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
 fn is_solved(change: f64, last: f64, tolerance: f64) -> bool {
     let stands = change < ROUNDING && change >= last;
     change <= tolerance.max(EXHAUSTED[1]) || stands
-}
-
-/// How much the last sweeps have changed.
-///
-/// The contraction is taken over two of them: its eigenvalues are complex, and single changes jump up and down.
-#[derive(Default)]
-struct Changes {
-    now: f64,
-    /// One and two sweeps before.
-    before: [f64; 2],
-    best: f64,
-    /// Sweeps, and sweeps since the best.
-    count: u32,
-    idle: u32,
-}
-
-impl Changes {
-    fn push(&mut self, change: f64) {
-        self.before = [self.now, self.before[0]];
-        let better = self.count == 0 || change < self.best;
-        self.idle = if better { 0 } else { self.idle + 1 };
-        self.best = if better { change } else { self.best };
-        self.now = change;
-        self.count += 1;
-    }
-
-    /// Whether the error that remains, estimated by the contraction, is below the tolerance, or rounding stands in the way.
-    fn are_solved(&self, tolerance: f64) -> bool {
-        if self.now <= EXHAUSTED[1] || self.count < 3 {
-            return self.now <= EXHAUSTED[1];
-        }
-        let contraction = (self.now / self.before[1]).sqrt().min(1.0);
-        let remains = self.now * contraction / (1.0 - contraction);
-        let stands = self.now < ROUNDING && self.idle >= IDLE;
-        stands || remains <= tolerance.max(EXHAUSTED[0])
-    }
-
-    fn diverge(&self) -> bool {
-        !self.now.is_finite() || (self.count > 6 && self.now > 10.0 * self.best.max(ROUNDING))
-    }
 }

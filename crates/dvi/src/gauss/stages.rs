@@ -142,18 +142,52 @@ impl<S: Batch> Matrix<S> {
         (begin, end): (impl Fn(usize, S) -> S, impl Fn(usize, S) -> S),
     ) {
         let row = &self.values[k * self.columns..][..self.columns];
+        if S::ITEMS == 1 {
+            return one_stage(out, row, &values.values, (begin, end));
+        }
         let last = values.blocks() - 1;
         for (l, weights) in row.chunks_exact(S::ITEMS).enumerate() {
             let items = S::items(values.block(l));
             let before = |d, value| if l == 0 { begin(d, value) } else { value };
             let after = |d, sum| if l == last { end(d, sum) } else { sum };
             match S::ITEMS {
-                1 => columns::<S, 1>(out, weights, items, (before, after)),
                 2 => columns::<S, 2>(out, weights, items, (before, after)),
                 4 => columns::<S, 4>(out, weights, items, (before, after)),
                 _ => columns::<S, 8>(out, weights, items, (before, after)),
             }
         }
+    }
+}
+
+/// Adds $\sum_j w_j v_j$ for a block of one stage.
+#[inline(always)]
+fn one_stage<S: Scalar>(
+    out: &mut [S],
+    weights: &[S],
+    values: &[S],
+    (begin, end): (impl Fn(usize, S) -> S, impl Fn(usize, S) -> S),
+) {
+    const SOME: usize = 4;
+    let dim = out.len();
+    for (d, out) in out.iter_mut().enumerate() {
+        *out = begin(d, *out);
+    }
+    let (some, rest) = weights.as_chunks::<SOME>();
+    let (of_some, of_rest) = values.split_at(dim * SOME * some.len());
+    for (weights, stages) in some.iter().zip(of_some.chunks_exact(dim * SOME)) {
+        let stage: [&[S]; SOME] = core::array::from_fn(|j| &stages[j * dim..][..dim]);
+        for (d, out) in out.iter_mut().enumerate() {
+            let add = |sum, j: usize| stage[j][d].mul_add(weights[j], sum);
+            *out = (0..SOME).fold(*out, add);
+        }
+    }
+    for (weight, stage) in rest.iter().zip(of_rest.chunks_exact(dim)) {
+        for (out, value) in out.iter_mut().zip(stage) {
+            *out = value.mul_add(*weight, *out);
+        }
+    }
+    for (d, out) in out.iter_mut().enumerate() {
+        *out = end(d, *out);
     }
 }
 

@@ -89,7 +89,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
         } = &mut self.work;
         let g = &start.0.g;
         let linearised = linearised.get_or_insert_with(|| SweepNewton::new(tableau, g));
-        linearised.weigh(sweep.weights());
+        linearised.weigh(sweep.judge.weights());
         linearised.carry::<R, S>(system, start, sweep, variations);
     }
 

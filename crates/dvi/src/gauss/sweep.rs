@@ -5,36 +5,47 @@ use lie::{
 };
 use num_traits::{One, Zero};
 
+use super::change::{Change, Judge};
 use super::stages::{Coefficients, Stages};
 use super::tableau::Tableau;
 use crate::numerics::duals::lift;
-use crate::numerics::numbers::larger;
-use crate::numerics::sizes::{Kinds, NOISE, Shaker, Weights, relative_beside};
+use crate::numerics::sizes::{Kinds, Shaker, Weights};
 use crate::{Context, ContinuousSystem, State};
 
-/// Sweeps for which it holds what is rounding.
-const ROUNDING_HOLDS: u32 = 4;
-/// Noise above this part of the rates or momenta is none: the motion is lost anyway.
-const LOUDEST: f64 = 1e-4;
 /// Sweeps that bring guessed velocities to the chart: each leaves about a hundredth of the error.
 const CHART_SWEEPS: usize = 3;
 
-/// As many stages as `S` has items: the chart's coordinates $(c_i, \pi_i)$, the state $(g_i, \mu_i)$ they stand for, and the rates there.
+/// As many stages as `S` has items: what their last evaluation leaves.
 struct Block<G: RealGroup, S: Scalar> {
-    /// $c_i$ with $g_i = g_k \tau(c_i)$.
-    c: AlgebraOver<G, S>,
-    /// $\pi_i$, the momentum conjugate to $c_i$.
-    pi: DualOver<G, S>,
     /// $f_i = \tau(c_i)$.
     f: Over<G, S>,
-    /// $g_i = g_k f_i$.
-    g: Over<G, S>,
     /// $\mu_i = (\mathrm d\tau_{c_i}^{-1})^\ast \pi_i$.
     mu: DualOver<G, S>,
     /// The velocity $\xi_i$.
     xi: AlgebraOver<G, S>,
     /// The force $\tau_i$.
     tau: DualOver<G, S>,
+}
+
+impl<G: RealGroup, S: Scalar> Block<G, S> {
+    fn new(g: &Over<G, S>) -> Self {
+        Self {
+            f: g.clone(),
+            mu: g.zero_dual(),
+            xi: g.zero_algebra(),
+            tau: g.zero_dual(),
+        }
+    }
+}
+
+/// What the evaluation of a block writes down on its way; one for all, so that it stays in the cache.
+struct Scratch<G: RealGroup, S: Scalar> {
+    /// $c_i$ with $g_i = g_k \tau(c_i)$.
+    c: AlgebraOver<G, S>,
+    /// $\pi_i$, the momentum conjugate to $c_i$.
+    pi: DualOver<G, S>,
+    /// $g_i = g_k f_i$.
+    g: Over<G, S>,
     /// $\dot c_i = \mathrm d\tau_{c_i}^{-1} \xi_i$.
     c_dot: AlgebraOver<G, S>,
     /// $\dot\pi_i = (\mathrm d\tau_{c_i})^\ast \tau_i - \partial_c \langle \pi_i, \mathrm d\tau_c^{-1} \xi_i \rangle$.
@@ -43,33 +54,22 @@ struct Block<G: RealGroup, S: Scalar> {
     force: DualOver<G, S>,
 }
 
-impl<G: RealGroup, S: Scalar> Block<G, S> {
+impl<G: RealGroup, S: Scalar> Scratch<G, S> {
     fn new(g: &Over<G, S>) -> Self {
         Self {
             c: g.zero_algebra(),
             pi: g.zero_dual(),
-            f: g.clone(),
             g: g.clone(),
-            mu: g.zero_dual(),
-            xi: g.zero_algebra(),
-            tau: g.zero_dual(),
             c_dot: g.zero_algebra(),
             pi_dot: g.zero_dual(),
             force: g.zero_dual(),
         }
     }
 
-    /// $\dot c$ and $\dot\pi$ from the velocity and the force of the system.
+    /// The force of a block in the frame of the step's start, into `out` too.
     #[inline(always)]
-    fn rates<R: Retraction>(&mut self) {
-        let rates = (&mut self.c_dot, &mut self.pi_dot);
-        Over::<G, S>::chart_rates_into::<R>((&self.c, &self.pi), (&self.xi, &self.tau), rates);
-    }
-
-    /// The force in the frame of the step's start, into `out` too.
-    #[inline(always)]
-    fn transport_force(&mut self, out: &mut [S]) {
-        self.f.inverse_coadjoint_into(&self.tau, &mut self.force);
+    fn transport_force(&mut self, block: &Block<G, S>, out: &mut [S]) {
+        block.f.inverse_coadjoint_into(&block.tau, &mut self.force);
         self.force.write(out);
     }
 }
@@ -133,104 +133,18 @@ pub(super) struct Sweep<C: ContinuousSystem, S: Batch> {
     /// A change of the force, at every stage; only for variations.
     pub(super) extra_force: Option<DualOver<C::Group, S>>,
     blocks: Vec<Block<C::Group, S>>,
+    scratch: Scratch<C::Group, S>,
     /// $g_k$.
     g: Over<C::Group, S>,
     parameters: Vec<S>,
     workspace: C::Workspace<S>,
     pub(super) kinds: Kinds,
-    /// Made at the first step.
-    weights: Option<Weights>,
-    driven: bool,
-    change: Change<S>,
-    /// What rounding makes of no change, in the rates of each kind; zero where that has not been looked at.
-    noise: Vec<[f64; 2]>,
-    /// What is rounding in each kind, of the rates and of the momenta, and for how many sweeps that holds.
-    rounding: Vec<[f64; 2]>,
-    rounding_holds: u32,
+    pub(super) change: Change<S>,
+    pub(super) judge: Judge,
     /// How often numbers were moved to measure noise.
     shakes: u32,
     /// New rates of a block.
     rates: Vec<S>,
-}
-
-/// How much a sweep changes the rates: the largest magnitudes of each kind of coordinates, item by item.
-struct Change<S> {
-    /// Of $\dot c$ and of $\dot\pi$.
-    kinds: Vec<[Largest<S>; 2]>,
-    /// Zero, unless a rate is not finite.
-    poison: S,
-    /// The same of all items, once they are [gathered](Change::gather).
-    of_all: Vec<[Largest<f64>; 2]>,
-}
-
-/// Of the changes, and of what they are relative to.
-#[derive(Clone, Copy)]
-struct Largest<S> {
-    change: S,
-    size: S,
-}
-
-impl<S: Zero> Largest<S> {
-    fn none() -> Self {
-        Self {
-            change: S::zero(),
-            size: S::zero(),
-        }
-    }
-}
-
-impl<S: Batch> Change<S> {
-    fn new(kinds: usize) -> Self {
-        Self {
-            kinds: vec![[Largest::none(); 2]; kinds],
-            poison: S::zero(),
-            of_all: vec![[Largest::none(); 2]; kinds],
-        }
-    }
-
-    #[inline(always)]
-    fn clear(&mut self) {
-        self.kinds.fill([Largest::none(); 2]);
-        self.poison = S::zero();
-    }
-
-    /// Takes over new rates, the first or the second, and how they differ from the old ones.
-    #[inline(always)]
-    fn replace(&mut self, (kinds, which): (&Kinds, usize), old: &mut [S], new: &[S], sizes: &[S]) {
-        let mut poison = self.poison;
-        for (run, kind) in &kinds.runs {
-            let Largest {
-                mut change,
-                mut size,
-            } = self.kinds[*kind][which];
-            let (old, run) = (&mut old[run.clone()], run.clone());
-            for ((old, new), of) in old.iter_mut().zip(&new[run.clone()]).zip(&sizes[run]) {
-                change = change.max((*new - *old).abs());
-                size = size.max(of.abs());
-                poison = new.mul_add(S::zero(), poison);
-                *old = *new;
-            }
-            self.kinds[*kind][which] = Largest { change, size };
-        }
-        self.poison = poison;
-    }
-}
-
-impl<S: Batch<Item = f64>> Change<S> {
-    /// Takes the largest of all items.
-    fn gather(&mut self) {
-        // What is not a number is in `poison`; one instruction a number, where `larger` takes three.
-        let largest = |x: &S| {
-            let items = S::items(core::slice::from_ref(x)).iter();
-            items.fold(0.0, |a, b| if *b > a { *b } else { a })
-        };
-        for (of_all, kind) in self.of_all.iter_mut().zip(&self.kinds) {
-            *of_all = [0, 1].map(|which| Largest {
-                change: largest(&kind[which].change),
-                size: largest(&kind[which].size),
-            });
-        }
-    }
 }
 
 impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
@@ -256,17 +170,14 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
             end: End::new(g),
             extra_force: None,
             blocks: (0..zero.blocks()).map(|_| Block::new(&lifted)).collect(),
+            scratch: Scratch::new(&lifted),
             parameters: Vec::new(),
             workspace: Default::default(),
             g: lifted,
             change: Change::new(kinds.count),
-            noise: vec![[0.0; 2]; kinds.count],
-            rounding: vec![[0.0; 2]; kinds.count],
-            rounding_holds: 0,
+            judge: Judge::new(kinds.count),
             shakes: 0,
             kinds,
-            weights: None,
-            driven: false,
             rates: vec![S::zero(); dim],
         }
     }
@@ -422,27 +333,26 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
 
     #[inline(always)]
     fn find_rates<R: Retraction>(&mut self, system: &C, (t, h): (S::Item, S::Item), k: usize) {
-        let block = &mut self.blocks[k];
-        block.c.read(self.c.block(k));
-        block.pi.read(self.pi.block(k));
-        Over::<C::Group, S>::chart_enter_into::<R>(
-            &block.c,
-            &block.pi,
-            (&mut block.f, &mut block.mu),
-        );
-        self.g.compose_into(&block.f, &mut block.g);
+        let (block, scratch) = (&mut self.blocks[k], &mut self.scratch);
+        scratch.c.read(self.c.block(k));
+        scratch.pi.read(self.pi.block(k));
+        let chart = (&scratch.c, &scratch.pi);
+        let place = (&mut block.f, &mut block.mu);
+        Over::<C::Group, S>::chart_enter_into::<R>(chart.0, chart.1, place);
+        self.g.compose_into(&block.f, &mut scratch.g);
         let (xi, tau) = (&mut block.xi, &mut block.tau);
         let t = S::splat(h).mul_add(self.coefficients.nodes[k], S::splat(t));
         let (at, work) = (Context::new(t, &self.parameters), &mut self.workspace);
-        system.velocity_and_force(at, &block.g, &block.mu, work, xi, tau);
+        system.velocity_and_force(at, &scratch.g, &block.mu, work, xi, tau);
         if let Some(force) = &self.extra_force {
             block.tau.add_scaled(S::one(), force);
         }
-        block.rates::<R>();
+        let rates = (&mut scratch.c_dot, &mut scratch.pi_dot);
+        Over::<C::Group, S>::chart_rates_into::<R>(chart, (&block.xi, &block.tau), rates);
         let (change, rates) = (&mut self.change, &mut self.rates);
-        block.c_dot.write(rates);
+        scratch.c_dot.write(rates);
         change.replace((&self.kinds, 0), self.c_dot.block_mut(k), rates, rates);
-        block.pi_dot.write(rates);
+        scratch.pi_dot.write(rates);
         let momenta = self.pi.block(k);
         change.replace((&self.kinds, 1), self.pi_dot.block_mut(k), rates, momenta);
     }
@@ -454,7 +364,7 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     {
         let (block, lane) = (&self.blocks[i / S::ITEMS], i % S::ITEMS);
         let item = |x: S| S::items(&[x])[lane];
-        C::Group::convert_into::<S, f64>(&block.g, item, &mut out.g);
+        C::Group::convert_into::<S, f64>(&self.g.compose(&block.f), item, &mut out.g);
         for d in 0..out.mu.dim() {
             out.mu.set(d, item(block.mu.get(d)));
         }
@@ -471,8 +381,8 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     #[inline(always)]
     fn find_momentum(&mut self, h: S::Item, mu: &DualOver<C::Group, S::Item>) {
         let (weights, end) = (&self.coefficients.weights, &mut self.end);
-        for (k, block) in self.blocks.iter_mut().enumerate() {
-            block.transport_force(self.force.block_mut(k));
+        for (k, block) in self.blocks.iter().enumerate() {
+            self.scratch.transport_force(block, self.force.block_mut(k));
         }
         weights.combine((&mut self.given, &mut self.rates), h, &self.force);
         end.impulse.read(&self.given);
@@ -536,33 +446,33 @@ impl<C: ContinuousSystem, S: Batch> Sweep<C, S> {
     /// $\dot c_i$ from $\xi_i$ at the place $c_i$.
     #[inline(always)]
     fn turn_velocity<R: Retraction>(&mut self, k: usize) {
-        let block = &mut self.blocks[k];
-        block.c.read(self.c.block(k));
+        let (block, scratch) = (&mut self.blocks[k], &mut self.scratch);
+        scratch.c.read(self.c.block(k));
         block.xi.read(self.xi.block(k));
-        let (c, xi) = (&block.c, &block.xi);
-        Over::<C::Group, S>::chart_velocity_into::<R>(c, xi, &mut block.c_dot);
-        block.c_dot.write(self.c_dot.block_mut(k));
+        let (c, xi) = (&scratch.c, &block.xi);
+        Over::<C::Group, S>::chart_velocity_into::<R>(c, xi, &mut scratch.c_dot);
+        scratch.c_dot.write(self.c_dot.block_mut(k));
     }
 
     /// The force in the frame of the start, from $\tau_i$ at the place $c_i$.
     #[inline(always)]
     fn turn_force<R: Retraction>(&mut self, k: usize) {
-        let block = &mut self.blocks[k];
-        block.c.read(self.c.block(k));
+        let (block, scratch) = (&mut self.blocks[k], &mut self.scratch);
+        scratch.c.read(self.c.block(k));
         block.tau.read(self.tau.block(k));
-        Over::<C::Group, S>::retract_into::<R>(&block.c, &mut block.f);
-        block.transport_force(self.force.block_mut(k));
+        Over::<C::Group, S>::retract_into::<R>(&scratch.c, &mut block.f);
+        scratch.transport_force(block, self.force.block_mut(k));
     }
 
     /// $\pi_i$ from the momentum in the frame of the start.
     #[inline(always)]
     fn transport_momentum<R: Retraction>(&mut self, k: usize) {
-        let block = &mut self.blocks[k];
-        block.c.read(self.c.block(k));
+        let (block, scratch) = (&mut self.blocks[k], &mut self.scratch);
+        scratch.c.read(self.c.block(k));
         block.mu.read(self.pi.block(k));
-        let (momentum, out) = (&block.mu, (&mut block.f, &mut block.force, &mut block.pi));
-        Over::<C::Group, S>::chart_leave_into::<R>(&block.c, momentum, out);
-        block.pi.write(self.pi.block_mut(k));
+        let out = (&mut block.f, &mut scratch.force, &mut scratch.pi);
+        Over::<C::Group, S>::chart_leave_into::<R>(&scratch.c, &block.mu, out);
+        scratch.pi.write(self.pi.block_mut(k));
     }
 
     /// Writes the velocities and forces at the stages.
@@ -611,11 +521,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
     pub(super) fn weigh(&mut self, system: &C, (t, mu): (f64, &<C::Group as LieGroup>::Dual)) {
         /// Of the momentum of the kind, or of its unit where there is none.
         const SMALL: f64 = 1.0 / 1024.0;
-        if self.weights.is_some() {
+        if self.judge.is_weighed() {
             return;
         }
         let driven = system.is_driven();
-        self.driven = driven;
         let (kinds, mut sizes) = (self.kinds.clone(), vec![0.0; self.kinds.count]);
         kinds.raise(&mut sizes, &mu.coordinates());
         let mut moved = mu.clone();
@@ -639,74 +548,15 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
             }
             size / change
         };
-        self.weights = Weights::new(&kinds, inertia);
+        let weights = Weights::new(&kinds, inertia);
+        self.judge.weigh(weights, driven);
     }
 
-    /// The largest change of the rates in the last sweep, in the kind of coordinates where it is largest: of $\dot c$ relative to it, of
-    /// $h \dot\pi$ to the momentum. A change that noise explains is none.
+    /// The largest change of the rates in the last sweep, in the kind of coordinates where it is largest; not a number where a rate is not.
     pub(super) fn change(&mut self, h: f64) -> f64 {
-        self.change.gather();
-        if self.rounding_holds == 0 {
-            self.rounding_holds = ROUNDING_HOLDS;
-            self.find_rounding(h);
-        }
-        self.rounding_holds -= 1;
-        let kinds = self.change.of_all.iter().zip(&self.rounding).enumerate();
-        let found = kinds.fold(0.0, |found, (kind, ([c, pi], rounding))| {
-            let c = relative_beside(c.change, c.size, rounding[0]);
-            let size = larger(pi.size, self.least_momentum(kind));
-            let pi = relative_beside(pi.change * h.abs(), size, rounding[1]);
-            larger(found, larger(c, pi))
-        });
+        self.judge.look(&self.change, largest);
         let poison = core::slice::from_ref(&self.change.poison);
-        found + S::items(poison).iter().sum::<f64>()
-    }
-
-    pub(super) fn is_driven(&self) -> bool {
-        self.driven
-    }
-
-    /// What a momentum of a kind is to be compared with at least: where the system is driven, that of the velocities.
-    pub(super) fn least_momentum(&self, kind: usize) -> f64 {
-        match &self.weights {
-            Some(weights) if self.driven => {
-                let rates = self.change.of_all.iter().map(|[c, _]| c.size);
-                weights.momentum_of(rates, kind)
-            }
-            _ => 0.0,
-        }
-    }
-
-    pub(super) fn weights(&self) -> Option<&Weights> {
-        self.weights.as_ref()
-    }
-
-    /// What is rounding in each kind, of the rates and of the momenta: noise, or rounding of the other kinds.
-    fn find_rounding(&mut self, h: f64) {
-        for kind in 0..self.kinds.count {
-            let ([c, pi], beside) = (self.noise[kind], self.beside(kind));
-            self.rounding[kind] = [
-                larger(NOISE * c, beside[0]),
-                larger(NOISE * h.abs() * pi, beside[1]),
-            ];
-        }
-    }
-
-    /// Looks anew at what is rounding in the next sweep.
-    pub(super) fn forget_rounding(&mut self) {
-        self.rounding_holds = 0;
-    }
-
-    /// What is rounding beside the other kinds, of the rates $\dot c$ and of the momenta.
-    fn beside(&self, kind: usize) -> [f64; 2] {
-        let Some(weights) = &self.weights else {
-            return [0.0; 2];
-        };
-        let size = |which: usize| move |kind: usize| self.change.of_all[kind][which].size;
-        [
-            weights.velocities.beside(size(0), kind),
-            weights.momenta.beside(size(1), kind),
-        ]
+        self.judge.change(h) + S::items(poison).iter().sum::<f64>()
     }
 
     /// Whether all rates of the last evaluation are finite.
@@ -719,15 +569,10 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
     pub(super) fn leaves_domain(&self, system: &C, (t, h): (f64, f64)) -> bool {
         let outside = |k: usize, lane: usize| {
             let item = |x: S| S::items(&[x])[lane];
-            let g = C::Group::convert::<S, f64>(&self.blocks[k].g, item);
+            let g = C::Group::convert::<S, f64>(&self.g.compose(&self.blocks[k].f), item);
             g.is_finite() && !system.is_defined(t + h * item(self.coefficients.nodes[k]), &g)
         };
         (0..self.blocks.len()).any(|k| (0..S::ITEMS).any(|lane| outside(k, lane)))
-    }
-
-    /// How much of a momentum of a kind is rounding in a step, as far as that is known.
-    pub(super) fn rounding_of_momentum(&self, kind: usize) -> f64 {
-        self.rounding[kind][1]
     }
 
     /// Measures what rounding makes of the rates at the stages' places: how much they change where every number that they follow from moves in
@@ -739,7 +584,6 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         (g, moved): (&C::Group, &mut C::Group),
         (t, h): (f64, f64),
     ) {
-        self.forget_rounding();
         self.shakes += 1;
         let time = self.shakes;
         for places in [&mut self.c, &mut self.pi] {
@@ -751,21 +595,19 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         self.start_at(moved);
         self.evaluate::<R>(system, (t, h));
         self.start_at(g);
-        self.change.gather();
-        for (kind, noise) in self.noise.iter_mut().enumerate() {
-            let [c, pi] = self.change.of_all[kind];
-            // What is not small beside the rates is no rounding.
-            for (noise, of) in noise.iter_mut().zip([c, pi]) {
-                if of.change <= LOUDEST * of.size {
-                    *noise = larger(*noise, of.change);
-                }
-            }
-        }
+        self.judge.look(&self.change, largest);
+        self.judge.hear();
     }
 
     /// Forgets what rounding makes.
     pub(super) fn forget_noise(&mut self) {
         self.shakes = 0;
-        self.noise.fill([0.0; 2]);
+        self.judge.forget_noise();
     }
+}
+
+/// The largest of a batch. What is not a number is not looked for here; one instruction a number, where `larger` takes three.
+fn largest<S: Batch<Item = f64>>(x: &S) -> f64 {
+    let items = S::items(core::slice::from_ref(x)).iter();
+    items.fold(0.0, |a, b| if *b > a { *b } else { a })
 }

@@ -10,8 +10,8 @@ use super::update::Update;
 use crate::numerics::sizes::{Kinds, Sizes};
 use crate::{ContinuousSystem, State, System};
 
-/// How far a step is solved, and by what.
-#[derive(Clone, Copy)]
+/// How far a step is solved, and by what: by default to rounding, by all there is.
+#[derive(Clone, Copy, Default)]
 pub(super) struct Limits {
     /// See [`Gauss::with_tolerance`](crate::Gauss::with_tolerance).
     pub(super) tolerance: f64,

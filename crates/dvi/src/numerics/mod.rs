@@ -2,6 +2,7 @@
 
 pub(crate) mod degenerate;
 pub(crate) mod duals;
+pub(crate) mod elements;
 pub(crate) mod large;
 pub(crate) mod numbers;
 pub(crate) mod sizes;

@@ -35,5 +35,5 @@ pub use shape::ShapeError;
 pub use state::{Pair, State, Still};
 pub(crate) use symmetry::generator;
 pub use symmetry::{LeftTranslation, RightTranslation, Symmetry, momentum_map};
-pub(crate) use traced::{DiscreteCache, count_numbers, with_numbers};
+pub(crate) use traced::DiscreteCache;
 pub use traced::{Recording, TracedError, TracedSystem, TracedWorkspace};

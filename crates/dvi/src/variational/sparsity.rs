@@ -4,8 +4,9 @@ use lie::{Cayley, LieGroup, Over, VectorSpace};
 use trace::{Graph, TraceError, Traced, record};
 
 use super::balance::Balance;
+use crate::numerics::elements;
 use crate::numerics::sparse::Sparse;
-use crate::system::{DiscreteCache, count_numbers, with_numbers};
+use crate::system::DiscreteCache;
 use crate::{Derivatives, DiscreteLagrangian, Means, State};
 
 /// The pattern of Newton's matrix, and a partition of its columns: no two of one colour share a row.
@@ -92,13 +93,13 @@ fn recorded<L: DiscreteLagrangian>(
     g: &L::Group,
     cache: &DiscreteCache<L::Group>,
 ) -> Result<Graph, TraceError> {
-    let (dim, numbers) = (g.zero_dual().dim(), count_numbers(g));
+    let (dim, numbers) = (g.zero_dual().dim(), elements::count(g));
     let parameters = lagrangian.parameters().len();
     record(2 * dim + numbers + 2 + parameters, |x| {
         let (of_c, rest) = x.split_at(dim);
         let (of_mu, rest) = rest.split_at(dim);
         let (of_g, rest) = rest.split_at(numbers);
-        let g = with_numbers(g, of_g);
+        let g = elements::with_numbers(g, of_g);
         let (mut c, mut mu, mut end) = (g.zero_algebra(), g.zero_dual(), g.zero_dual());
         c.read(of_c);
         mu.read(of_mu);

@@ -30,7 +30,7 @@ pub fn top() -> State<SO3> {
 
 /// A particle whose potential is chosen by a look at its place.
 #[derive(Clone, Copy)]
-struct Branching;
+pub struct Branching;
 
 impl System for Branching {
     type Group = Rn<1>;

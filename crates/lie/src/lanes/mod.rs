@@ -31,7 +31,7 @@ mod register;
 use core::fmt;
 
 use crate::Batch;
-use register::Register;
+use register::{Lanes, Problems, Register};
 
 /// Something to compute over any scalar that is made of doubles.
 pub trait Job {
@@ -40,6 +40,53 @@ pub trait Job {
 
     /// Computes it. The parts that are worth it go through [`Batch::run`].
     fn run<S: Batch<Item = f64>>(self) -> Self::Output;
+}
+
+/// A number of each of several problems: one problem a lane.
+///
+/// To a formula it is one number, as it would be for one problem alone. So what is written over any [`Batch`] solves as many problems as there are lanes.
+pub trait PerLane: Batch<Item = Self> {
+    /// How many problems.
+    const LANES: usize;
+
+    /// The numbers, one for each problem.
+    fn lanes(&self) -> &[f64];
+
+    /// The same, to be changed.
+    fn lanes_mut(&mut self) -> &mut [f64];
+
+    /// The number that each problem has.
+    #[inline(always)]
+    fn from_lanes(number: impl FnMut(usize) -> f64) -> Self {
+        let (mut all, mut number) = (Self::zero(), number);
+        for (lane, x) in all.lanes_mut().iter_mut().enumerate() {
+            *x = number(lane);
+        }
+        all
+    }
+}
+
+impl PerLane for f64 {
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn lanes(&self) -> &[f64] {
+        core::slice::from_ref(self)
+    }
+
+    #[inline(always)]
+    fn lanes_mut(&mut self) -> &mut [f64] {
+        core::slice::from_mut(self)
+    }
+}
+
+/// Something to compute for several problems at once, whatever their number.
+pub trait PerLaneJob {
+    /// What comes out.
+    type Output;
+
+    /// Computes it. The parts that are worth it go through [`Batch::run`].
+    fn run<S: PerLane>(self) -> Self::Output;
 }
 
 /// The instructions that numbers are computed with.
@@ -108,11 +155,25 @@ pub fn run<J: Job>(set: InstructionSet, job: J) -> J::Output {
     match set {
         _ if !set.is_available() => job.run::<f64>(),
         #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => job.run::<register::Lanes<register::Avx2>>(),
+        InstructionSet::Avx2 => job.run::<Lanes<register::Avx2>>(),
         #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => job.run::<register::Lanes<register::Avx512>>(),
+        InstructionSet::Avx512 => job.run::<Lanes<register::Avx512>>(),
         #[cfg(target_arch = "aarch64")]
-        InstructionSet::Neon => job.run::<register::Lanes<register::Neon>>(),
+        InstructionSet::Neon => job.run::<Lanes<register::Neon>>(),
+        _ => job.run::<f64>(),
+    }
+}
+
+/// Does the job for as many problems as these instructions take side by side; for one where the processor does not have them.
+pub fn run_per_lane<J: PerLaneJob>(set: InstructionSet, job: J) -> J::Output {
+    match set {
+        _ if !set.is_available() => job.run::<f64>(),
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx2 => job.run::<Lanes<register::Avx2, Problems>>(),
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx512 => job.run::<Lanes<register::Avx512, Problems>>(),
+        #[cfg(target_arch = "aarch64")]
+        InstructionSet::Neon => job.run::<Lanes<register::Neon, Problems>>(),
         _ => job.run::<f64>(),
     }
 }
@@ -122,7 +183,7 @@ pub fn run<J: Job>(set: InstructionSet, job: J) -> J::Output {
 pub fn run_single<J: Job>(job: J) -> J::Output {
     #[cfg(target_arch = "x86_64")]
     if register::Fma::is_available() {
-        return job.run::<register::Lanes<register::Fma>>();
+        return job.run::<Lanes<register::Fma>>();
     }
     job.run::<f64>()
 }

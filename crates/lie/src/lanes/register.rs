@@ -4,6 +4,7 @@
 //! processor was asked.
 
 use core::fmt::Debug;
+use core::marker::PhantomData;
 use core::ops::{
     Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
 };
@@ -11,6 +12,7 @@ use core::ops::{
 use num_traits::{One, Zero};
 use pulp::{Simd, WithSimd, bytemuck};
 
+use super::PerLane;
 use crate::numeric::larger;
 use crate::{Batch, DualNumber, Scalar};
 
@@ -67,12 +69,60 @@ register!(
 
 type Doubles<R> = <<R as Register>::Simd as Simd>::f64s;
 
+/// What the doubles of a register are to a formula.
+pub trait Meaning: Copy + Debug + Send + Sync + 'static {}
+
+/// Items of a [`Batch`].
+#[derive(Clone, Copy, Debug)]
+pub struct Items;
+
+/// One number, of a problem of its own in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Problems;
+
+impl Meaning for Items {}
+impl Meaning for Problems {}
+
 /// As many doubles as a register of `R` holds.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
-pub struct Lanes<R: Register>(Doubles<R>);
+pub struct Lanes<R: Register, M = Items>(Doubles<R>, PhantomData<M>);
 
-impl<R: Register> Lanes<R> {
+impl<R: Register, M: Meaning> Lanes<R, M> {
+    #[inline(always)]
+    fn of(doubles: Doubles<R>) -> Self {
+        Self(doubles, PhantomData)
+    }
+
+    /// The same double in each lane.
+    #[inline(always)]
+    fn everywhere(x: f64) -> Self {
+        Self::of(R::token().splat_f64s(x))
+    }
+
+    #[inline(always)]
+    fn magnitudes(self) -> Self {
+        Self::of(R::token().abs_f64s(self.0))
+    }
+
+    #[inline(always)]
+    fn larger_each(self, other: Self) -> Self {
+        Self::of(R::token().max_f64s(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn vectorised<O>(f: impl FnOnce() -> O) -> O {
+        struct Call<F>(F);
+        impl<O, F: FnOnce() -> O> WithSimd for Call<F> {
+            type Output = O;
+            #[inline(always)]
+            fn with_simd<S: Simd>(self, _: S) -> O {
+                (self.0)()
+            }
+        }
+        R::token().vectorize(Call(f))
+    }
+
     /// Number by number, for what the registers cannot do.
     #[inline(always)]
     fn each(mut self, f: impl Fn(usize, f64) -> f64) -> Self {
@@ -95,18 +145,18 @@ impl<R: Register> Lanes<R> {
 
 macro_rules! operator {
     ($($trait:ident $method:ident $assign:ident $assign_method:ident $of_simd:ident),+) => { $(
-        impl<R: Register> $trait for Lanes<R> {
+        impl<R: Register, M: Meaning> $trait for Lanes<R, M> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, y: Self) -> Self {
-                Self(R::token().$of_simd(self.0, y.0))
+                Self::of(R::token().$of_simd(self.0, y.0))
             }
         }
 
-        impl<R: Register> $assign for Lanes<R> {
+        impl<R: Register, M: Meaning> $assign for Lanes<R, M> {
             #[inline(always)]
             fn $assign_method(&mut self, y: Self) {
-                *self = Self(R::token().$of_simd(self.0, y.0));
+                *self = Self::of(R::token().$of_simd(self.0, y.0));
             }
         }
     )+ };
@@ -119,7 +169,7 @@ operator!(
     Div div DivAssign div_assign div_f64s
 );
 
-impl<R: Register> Rem for Lanes<R> {
+impl<R: Register, M: Meaning> Rem for Lanes<R, M> {
     type Output = Self;
     #[inline(always)]
     fn rem(self, y: Self) -> Self {
@@ -127,32 +177,32 @@ impl<R: Register> Rem for Lanes<R> {
     }
 }
 
-impl<R: Register> RemAssign for Lanes<R> {
+impl<R: Register, M: Meaning> RemAssign for Lanes<R, M> {
     #[inline(always)]
     fn rem_assign(&mut self, y: Self) {
         *self = *self % y;
     }
 }
 
-impl<R: Register> Neg for Lanes<R> {
+impl<R: Register, M: Meaning> Neg for Lanes<R, M> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(R::token().neg_f64s(self.0))
+        Self::of(R::token().neg_f64s(self.0))
     }
 }
 
-impl<R: Register> PartialEq for Lanes<R> {
+impl<R: Register, M: Meaning> PartialEq for Lanes<R, M> {
     #[inline(always)]
     fn eq(&self, y: &Self) -> bool {
         self.numbers() == y.numbers()
     }
 }
 
-impl<R: Register> Zero for Lanes<R> {
+impl<R: Register, M: Meaning> Zero for Lanes<R, M> {
     #[inline(always)]
     fn zero() -> Self {
-        Self::splat(0.0)
+        Self::everywhere(0.0)
     }
     #[inline(always)]
     fn is_zero(&self) -> bool {
@@ -160,14 +210,14 @@ impl<R: Register> Zero for Lanes<R> {
     }
 }
 
-impl<R: Register> One for Lanes<R> {
+impl<R: Register, M: Meaning> One for Lanes<R, M> {
     #[inline(always)]
     fn one() -> Self {
-        Self::splat(1.0)
+        Self::everywhere(1.0)
     }
 }
 
-impl<R: Register> Scalar for Lanes<R> {
+impl<R: Register, M: Meaning> Scalar for Lanes<R, M> {
     type Mask = <R::Simd as Simd>::m64s;
     type Real = Self;
     type Jet = DualNumber<Self>;
@@ -177,19 +227,19 @@ impl<R: Register> Scalar for Lanes<R> {
 
     #[inline(always)]
     fn compiled<O>(f: impl FnOnce() -> O) -> O {
-        <Self as Batch>::run(f)
+        Self::vectorised(f)
     }
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
-        Self::splat(x)
+        Self::everywhere(x)
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
-        Self(R::token().mul_add_e_f64s(self.0, a.0, b.0))
+        Self::of(R::token().mul_add_e_f64s(self.0, a.0, b.0))
     }
     #[inline(always)]
     fn neg_mul_add(self, a: Self, b: Self) -> Self {
-        Self(R::token().negate_mul_add_e_f64s(self.0, a.0, b.0))
+        Self::of(R::token().negate_mul_add_e_f64s(self.0, a.0, b.0))
     }
     #[inline(always)]
     fn real(self) -> Self {
@@ -201,7 +251,7 @@ impl<R: Register> Scalar for Lanes<R> {
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(R::token().sqrt_f64s(self.0))
+        Self::of(R::token().sqrt_f64s(self.0))
     }
     #[inline(always)]
     fn exp(self) -> Self {
@@ -238,7 +288,7 @@ impl<R: Register> Scalar for Lanes<R> {
     }
     #[inline(always)]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Self(R::token().select_f64s(mask, yes.0, no.0))
+        Self::of(R::token().select_f64s(mask, yes.0, no.0))
     }
     /// The largest of them; not a number where one is not.
     #[inline(always)]
@@ -253,7 +303,7 @@ impl<R: Register> Batch for Lanes<R> {
 
     #[inline(always)]
     fn splat(item: f64) -> Self {
-        Self(R::token().splat_f64s(item))
+        Self::everywhere(item)
     }
 
     #[inline(always)]
@@ -277,24 +327,70 @@ impl<R: Register> Batch for Lanes<R> {
 
     #[inline(always)]
     fn abs(self) -> Self {
-        Self(R::token().abs_f64s(self.0))
+        self.magnitudes()
     }
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self(R::token().max_f64s(self.0, other.0))
+        self.larger_each(other)
     }
 
     #[inline(always)]
     fn run<O>(f: impl FnOnce() -> O) -> O {
-        struct Call<F>(F);
-        impl<O, F: FnOnce() -> O> WithSimd for Call<F> {
-            type Output = O;
-            #[inline(always)]
-            fn with_simd<S: Simd>(self, _: S) -> O {
-                (self.0)()
-            }
-        }
-        R::token().vectorize(Call(f))
+        Self::vectorised(f)
+    }
+}
+
+impl<R: Register> Batch for Lanes<R, Problems> {
+    type Item = Self;
+    const ITEMS: usize = 1;
+
+    #[inline(always)]
+    fn splat(item: Self) -> Self {
+        item
+    }
+
+    #[inline(always)]
+    fn items(batches: &[Self]) -> &[Self] {
+        batches
+    }
+
+    #[inline(always)]
+    fn items_mut(batches: &mut [Self]) -> &mut [Self] {
+        batches
+    }
+
+    #[inline(always)]
+    fn sum(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.magnitudes()
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.larger_each(other)
+    }
+
+    #[inline(always)]
+    fn run<O>(f: impl FnOnce() -> O) -> O {
+        Self::vectorised(f)
+    }
+}
+
+impl<R: Register> PerLane for Lanes<R, Problems> {
+    const LANES: usize = R::Simd::F64_LANES;
+
+    #[inline(always)]
+    fn lanes(&self) -> &[f64] {
+        self.numbers()
+    }
+
+    #[inline(always)]
+    fn lanes_mut(&mut self) -> &mut [f64] {
+        self.numbers_mut()
     }
 }

@@ -5,10 +5,10 @@ use core::ops::Range;
 use lie::{RealGroup, VectorSpace};
 use trace::{Binary, Degree, Graph, Id, Node, Program, Unary};
 
-use super::elements;
 use super::error::TracedError;
 use super::inertia::{self, Solution};
 use super::translation::Translations;
+use crate::numerics::elements;
 
 /// The most operations for the factors of an inertia that are written on a graph: a program ten times as long takes seconds to make.
 const LIMIT: usize = 1_000_000;

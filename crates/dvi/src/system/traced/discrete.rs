@@ -7,10 +7,11 @@ use trace::{Program, Traced, record};
 
 use super::cache::Cache;
 use super::compile::{has_logarithm, poison, side_by_side};
-use super::elements;
+
 use super::error::TracedError;
 use super::part::Part;
 use super::translation::Translations;
+use crate::numerics::elements;
 use crate::system::context::Context;
 use crate::system::lifted::Arguments;
 

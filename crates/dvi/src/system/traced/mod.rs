@@ -3,7 +3,6 @@
 mod cache;
 mod compile;
 mod discrete;
-mod elements;
 mod error;
 mod inertia;
 mod part;
@@ -19,7 +18,6 @@ pub(crate) use self::cache::Cache;
 pub(crate) use self::compile::Programs;
 use self::compile::{Layout, compile};
 pub(crate) use self::discrete::{DiscreteCache, DiscreteProgram, DiscreteRecording};
-pub(crate) use self::elements::{count as count_numbers, with_numbers};
 pub use self::error::TracedError;
 pub(crate) use self::part::Home;
 pub use self::recording::Recording;
@@ -30,6 +28,7 @@ use super::context::Context;
 use super::continuous::ContinuousSystem;
 use super::dual_system::DualSystem;
 use super::lagrangian::Lagrangian;
+use crate::numerics::elements;
 
 impl Programs {
     /// Those of a Lagrangian, for configurations of the shape of `g`.

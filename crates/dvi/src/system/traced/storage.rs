@@ -6,7 +6,8 @@ use lie::{DualOver, LieGroup, Over, RealGroup, Scalar, VectorSpace};
 use trace::Program;
 
 use super::compile::Programs;
-use super::elements;
+
+use crate::numerics::elements;
 use crate::system::context::Context;
 
 /// Storage of an evaluation, made when first needed.

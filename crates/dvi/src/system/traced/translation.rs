@@ -1,9 +1,8 @@
 //! How the numbers of a group element change along left-trivialised velocities.
 
+use crate::numerics::elements;
 use lie::{Cayley, LieGroup, Over, RealGroup, VectorSpace};
 use trace::{Degree, Graph, Id, TraceError, Traced, record};
-
-use super::elements::{count, numbers, with_numbers};
 
 /// The derivatives $\partial n_k(g \exp \zeta) / \partial \zeta_d$ at $\zeta = 0$ of the numbers $n_k$ of an element, as formulas of these.
 ///
@@ -17,7 +16,7 @@ pub(crate) struct Translations {
 
 impl Translations {
     pub(crate) fn new<G: RealGroup>(g: &G) -> Result<Self, TraceError> {
-        let (numbers, dim) = (count(g), g.zero_algebra().dim());
+        let (numbers, dim) = (elements::count(g), g.zero_algebra().dim());
         let mut moved = record(numbers + dim, |x| moved(g, x.split_at(numbers)))?;
         let (out, inputs) = (moved.outputs().to_vec(), moved.inputs());
         let (pattern, slopes) = moved.jacobian(&out, &inputs[numbers..]);
@@ -59,11 +58,11 @@ impl Translations {
 
 /// The numbers of $g \exp \zeta$; to first order, any retraction is the exponential.
 fn moved<G: RealGroup>(g: &G, (n, along): (&[Traced], &[Traced])) -> Vec<Traced> {
-    let g = with_numbers(g, n);
+    let g = elements::with_numbers(g, n);
     let mut zeta = g.zero_algebra();
     zeta.read(along);
     let small = Over::<G, Traced>::retract::<Cayley>(&zeta);
-    numbers::<G, Traced>(&g.compose(&small))
+    elements::numbers::<G, Traced>(&g.compose(&small))
 }
 
 /// The same derivatives without the terms that are zero for every element; products of matrices leave many.

@@ -23,8 +23,18 @@ pub(crate) fn with_numbers<G: RealGroup, S: Scalar>(g: &G, numbers: &[S]) -> Ove
     })
 }
 
+/// Sets `out` to the element of the shape of `g` whose numbers these are.
+pub(crate) fn read<G: RealGroup, S: Scalar>(
+    g: &G,
+    number: impl Fn(usize) -> S,
+    out: &mut Over<G, S>,
+) {
+    let next = Cell::new(0);
+    G::convert_into::<f64, S>(g, |_| number(next.replace(next.get() + 1)), out);
+}
+
 /// The numbers of any element.
-pub(super) fn numbers<G: LieGroup, S: Scalar>(g: &Over<G, S>) -> Vec<S> {
+pub(crate) fn numbers<G: LieGroup, S: Scalar>(g: &Over<G, S>) -> Vec<S> {
     let found = core::cell::RefCell::new(Vec::new());
     G::convert::<S, S>(g, |x| {
         found.borrow_mut().push(x);
@@ -35,7 +45,7 @@ pub(super) fn numbers<G: LieGroup, S: Scalar>(g: &Over<G, S>) -> Vec<S> {
 
 /// Writes the numbers of an element to `out`, by way of `scratch`; whether there are as many.
 #[inline(always)]
-pub(super) fn write<G: LieGroup, S: Scalar>(
+pub(crate) fn write<G: LieGroup, S: Scalar>(
     g: &Over<G, S>,
     scratch: &mut Over<G, S>,
     out: &mut [S],
