@@ -3,11 +3,12 @@
 use std::time::Instant;
 
 use lgvi::dvi::{
-    DualSystem, Gauss, Integrator, Lagrangian, Means, Quadrature, StepError, TracedSystem,
+    DualSystem, Gauss, Integrator, Lagrangian, Means, Quadrature, State, StepError, TracedSystem,
     Variational,
 };
-use lgvi::lie::{Power, SE3};
+use lgvi::lie::{LieGroup, Power, SE3, VectorSpace};
 
+use super::by_hand::ByHand;
 use super::flight::{BEAM, start};
 
 /// Seconds of the first step, and of a later one; and how often the system is evaluated in that.
@@ -16,12 +17,12 @@ struct Cost {
     later: f64,
     evaluations: f64,
     means: Means,
+    end: State<Power<SE3>>,
 }
 
 fn cost<I: Integrator<Group = Power<SE3>>>(
     mut integrator: I,
-    nodes: usize,
-    (h, steps): (f64, u32),
+    (nodes, (h, steps)): (usize, (f64, u32)),
 ) -> Result<Cost, StepError> {
     let mut state = start(nodes);
     let clock = Instant::now();
@@ -41,6 +42,7 @@ fn cost<I: Integrator<Group = Power<SE3>>>(
         later,
         evaluations: f64::from(evaluations) / f64::from(steps),
         means,
+        end: state,
     })
 }
 
@@ -61,26 +63,32 @@ pub fn print() -> Result<(), Box<dyn core::error::Error>> {
     };
     for nodes in [5, 20, 80, 320] {
         let clock = Instant::now();
-        let system = TracedSystem::new(&BEAM, &start(nodes).g)?;
+        TracedSystem::new(&BEAM, &start(nodes).g)?;
         let recording = clock.elapsed().as_secs_f64();
-        let steps = (4000 / nodes) as u32;
-        print(
-            nodes,
-            "gauss-8",
-            recording,
-            &cost(Gauss::new::<4>(system), nodes, (H, steps))?,
-        );
-        let gauss = Gauss::new::<4>(BEAM.hamiltonian());
-        print(nodes, "gauss-8", 0.0, &cost(gauss, nodes, (H, steps))?);
-        let variational = Variational::new(midpoint());
+        let of = (nodes, (H, (4000 / nodes) as u32));
+        let by_hand = cost(Gauss::new::<4>(ByHand(BEAM)), of)?;
+        let gauss = cost(Gauss::new::<4>(BEAM.hamiltonian()), of)?;
+        print(nodes, "gauss-8", 0.0, &by_hand);
+        print(nodes, "gauss-8", recording, &gauss);
         print(
             nodes,
             "midpoint",
             0.0,
-            &cost(variational, nodes, (H, steps))?,
+            &cost(Variational::new(midpoint()), of)?,
+        );
+        println!(
+            "        recorded over by hand {:.2}; after the same steps {:.1e} apart",
+            gauss.later / by_hand.later,
+            distance(&gauss.end, &by_hand.end)
         );
     }
     let by_duals = Gauss::new::<4>(DualSystem(BEAM));
-    print(5, "gauss-8", 0.0, &cost(by_duals, 5, (H, 10))?);
+    print(5, "gauss-8", 0.0, &cost(by_duals, (5, (H, 10)))?);
     Ok(())
+}
+
+/// Of the nodes, m and rad.
+fn distance(a: &State<Power<SE3>>, b: &State<Power<SE3>>) -> f64 {
+    let apart = a.g.inverse().compose(&b.g).cayley_inverse();
+    apart.map_or(f64::NAN, |c| c.max_magnitude())
 }

@@ -8,6 +8,7 @@
 //!
 //! The last two draw `out/cantilever.png` and `out/flight.png`.
 
+mod by_hand;
 mod cantilever;
 mod costs;
 mod flight;

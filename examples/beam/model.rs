@@ -46,23 +46,27 @@ impl Lagrangian for Beam {
 
 impl Beam {
     /// Of a node: moments of inertia, and three times the mass.
-    fn masses(&self) -> [f64; 6] {
+    pub fn masses(&self) -> [f64; 6] {
         let rod = MASS * self.piece.powi(3) / 12.0;
         let [along, across, _] = INERTIA.map(|j| j * self.piece);
         let mass = MASS * self.piece;
         [along, across + rod, across + rod, mass, mass, mass]
     }
 
-    /// Twice the energy of the strain between two nodes.
-    fn elastic<S: Scalar>(&self, a: &SE3<S>, b: &SE3<S>) -> S {
-        // The difference first: far from the origin a product of the two would lose digits.
+    /// $g_i^{-1} g_{i+1}$; the difference first, for far from the origin a product of the two would lose digits.
+    #[inline(always)]
+    pub fn apart<S: Scalar>(&self, a: &SE3<S>, b: &SE3<S>) -> SE3<S> {
         let along = b.translation - a.translation;
-        let apart = SE3::new(
+        SE3::new(
             a.rotation.inverse().compose(&b.rotation),
             a.rotation.inverse_rotate(along),
-        );
+        )
+    }
+
+    /// Twice the energy of the strain between two nodes.
+    fn elastic<S: Scalar>(&self, a: &SE3<S>, b: &SE3<S>) -> S {
         // Outside the chart, a bend by half a turn, there is no energy.
-        let strain = apart.retract_inverse::<Cayley>();
+        let strain = self.apart(a, b).retract_inverse::<Cayley>();
         let strain = strain.map_or(Tangent([S::from_f64(f64::NAN); 6]), |c| {
             c * S::from_f64(1.0 / self.piece)
         });

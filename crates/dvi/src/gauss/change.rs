@@ -192,14 +192,14 @@ impl Judge {
         ]
     }
 
-    /// Takes the changes at the last look for noise: rounding alone has made them.
-    pub(super) fn hear(&mut self) {
+    /// Takes the changes at the last look for noise: so many times rounding has made them.
+    pub(super) fn hear(&mut self, times: f64) {
         self.forget_rounding();
         for (noise, largest) in self.noise.iter_mut().zip(&self.largest) {
             // What is not small beside the rates is no rounding.
             for (noise, of) in noise.iter_mut().zip(largest) {
                 if of.change <= LOUDEST * of.size {
-                    *noise = larger(*noise, of.change);
+                    *noise = larger(*noise, of.change / times);
                 }
             }
         }

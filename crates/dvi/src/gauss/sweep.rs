@@ -596,7 +596,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Sweep<C, S> {
         self.evaluate::<R>(system, (t, h));
         self.start_at(g);
         self.judge.look(&self.change, largest);
-        self.judge.hear();
+        self.judge.hear(shaker.times());
     }
 
     /// Forgets what rounding makes.

@@ -9,6 +9,8 @@ use super::numbers::{exponent, larger, power_of_two, relative};
 
 /// The last digits of a number choose the direction of its shake.
 const DIGITS: u32 = 8;
+/// How much further numbers move where each goes its own way.
+const FAR: f64 = 32.0;
 /// A correction of this part of the tolerance, relative to the displacement, is not made.
 const SETTLED: f64 = 0.1;
 /// Roundings of an evaluation may add up to so many times what shaking its arguments makes of it …
@@ -283,11 +285,11 @@ impl Sizes {
         sizes.fold(0.0, larger)
     }
 
-    /// Takes the difference of two evaluations that are the same but for rounding: the noise of each block, where it is larger than before.
-    pub(crate) fn raise_noise<V: VectorSpace<Scalar = f64>>(&mut self, difference: &V) {
+    /// Takes the difference of two evaluations whose arguments differ by so many times rounding: the noise of each block, where it is larger than before.
+    pub(crate) fn raise_noise<V: VectorSpace<Scalar = f64>>(&mut self, difference: &V, times: f64) {
         self.measure(difference);
         for block in &mut self.blocks {
-            block.noise = larger(block.noise, block.size);
+            block.noise = larger(block.noise, block.size / times);
         }
     }
 
@@ -341,10 +343,11 @@ fn largest(numbers: &[f64]) -> f64 {
     max + poison
 }
 
-/// Moves numbers by two units of their last place, up or down, so that they cannot be told from what they were.
+/// Moves numbers so little that they cannot be told from what they were.
 ///
-/// Every other time one of its digits says whether a number goes up, else its place in the row of numbers: numbers that are equal
-/// would else move together, and what they do cancel.
+/// At odd times by two units of the last place, and one of its digits says whether a number goes up. But then numbers that are equal
+/// move together, and what they do cancels. So at even times each goes another way [further](Self::times): this shows what the arguments' rounding does,
+/// and the other what that of the evaluation does.
 pub(crate) struct Shaker {
     time: u32,
     next: Cell<u32>,
@@ -356,17 +359,33 @@ impl Shaker {
         Self { time, next }
     }
 
+    /// How many times two units of the last place the numbers move, on average.
+    pub(crate) fn times(&self) -> f64 {
+        match self.time.is_multiple_of(2) {
+            true => FAR,
+            false => 1.0,
+        }
+    }
+
     /// The next number, moved.
     #[inline]
     pub(crate) fn shake(&self, x: f64) -> f64 {
         let place = self.next.replace(self.next.get().wrapping_add(1));
-        let up = match self.time.is_multiple_of(2) {
-            true => place.wrapping_mul(0x9e37_79b9) >> 31 == 0,
-            false => x.to_bits() >> (self.time / 2 % DIGITS) & 1 == 0,
+        let by = match self.time.is_multiple_of(2) {
+            true => 2.0 * FAR * spread(place),
+            false if x.to_bits() >> (self.time / 2 % DIGITS) & 1 == 0 => 1.0,
+            false => -1.0,
         };
-        let sign = if up { 1.0 } else { -1.0 };
-        x + sign * 2.0 * f64::EPSILON * x
+        x + by * 2.0 * f64::EPSILON * x
     }
+}
+
+/// A number between -1 and 1 for each place, evenly spread whatever the distance of the places.
+fn spread(place: u32) -> f64 {
+    let mut bits = place.wrapping_add(1).wrapping_mul(0x9e37_79b9);
+    bits = (bits ^ bits >> 15).wrapping_mul(0x85eb_ca6b);
+    bits = (bits ^ bits >> 13).wrapping_mul(0xc2b2_ae35);
+    f64::from((bits ^ bits >> 16) as i32) / f64::from(1_u32 << 31)
 }
 
 /// Shakes every coordinate.

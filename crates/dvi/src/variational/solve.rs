@@ -456,7 +456,7 @@ impl<L: DiscreteLagrangian> Work<L> {
         shake(&mut self.c, time);
         self.evaluate(lagrangian, &other.state, h);
         other.residual.add_scaled(-1.0, &self.balance.residual);
-        self.sizes.raise_noise(&other.residual);
+        self.sizes.raise_noise(&other.residual, shaker.times());
         self.c.copy_from(&other.c);
         self.evaluate(lagrangian, state, h);
         self.shaken = Some(other);
