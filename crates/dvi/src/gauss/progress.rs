@@ -14,6 +14,8 @@ const KNOWN_BETTER: f64 = 0.01;
 pub(super) const STAYS: f64 = 0.5;
 /// Noise is measured only below this change: above, the iteration diverges.
 pub(super) const MEASURES_BELOW: f64 = 1e-4;
+/// Corrections of $\pi_0$ at rounding, each of which begins anew, after which rates and $\pi_0$ go round in a circle.
+const CORRECTIONS: u32 = 3;
 
 /// Whether it is time to look at $\pi_0$.
 pub(super) fn looks_at_end(sweeps: u32) -> bool {
@@ -25,6 +27,8 @@ pub(super) struct Progress {
     changes: Changes,
     /// The last mismatch of $\pi_0$ that rates had settled for.
     mismatch: f64,
+    /// Corrections of $\pi_0$ that were made when the changes were rounding.
+    corrections: u32,
 }
 
 /// What a look at $\pi_0$ says.
@@ -40,6 +44,7 @@ impl Default for Progress {
         Self {
             changes: Changes::default(),
             mismatch: f64::INFINITY,
+            corrections: 0,
         }
     }
 }
@@ -52,7 +57,8 @@ impl Progress {
 
     /// Whether the rates are solved for the $\pi_0$ that the stages start from.
     pub(super) fn is_settled(&self, tolerance: f64) -> bool {
-        self.changes.are_solved(tolerance)
+        let circles = self.corrections > CORRECTIONS && self.changes.now < ROUNDING;
+        circles || self.changes.are_solved(tolerance)
     }
 
     /// What is to be done about a mismatch of $\pi_0$, of rates that have settled or not.
@@ -67,6 +73,7 @@ impl Progress {
         }
         let known = mismatch > enough && mismatch > KNOWN_BETTER * self.changes.now;
         if settled || known {
+            self.corrections += u32::from(self.changes.now < ROUNDING);
             self.changes = Changes::default();
             return AtEnd::Corrects;
         }
@@ -127,5 +134,37 @@ impl Changes {
 
     fn diverge(&self) -> bool {
         !self.now.is_finite() || (self.count > 6 && self.now > 10.0 * self.best.max(ROUNDING))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sweeps until a step is solved whose rates and whose $\pi_0$ both go round in a cycle of rounding.
+    fn sweeps_of_a_cycle(rates: &[f64], mismatches: &[f64]) -> Option<u32> {
+        let mut progress = Progress::default();
+        (1..60).find(|sweep| {
+            let at = *sweep as usize;
+            progress.push(rates[at % rates.len()]);
+            let settled = progress.is_settled(0.0);
+            let looks = settled || looks_at_end(*sweep);
+            let mismatch = mismatches[at / 4 % mismatches.len()];
+            looks && matches!(progress.at_end((settled, mismatch), 0.0), AtEnd::Solved)
+        })
+    }
+
+    #[test]
+    fn a_cycle_of_rounding_ends() {
+        let rates = [5.16e-13, 5.30e-13, 5.29e-13, 5.17e-13, 5.31e-13];
+        for mismatches in [
+            &[9.4e-15, 1.3e-16][..],
+            &[9.4e-15],
+            &[2e-13, 1e-14, 3e-14],
+            &[9e-13, 3e-13],
+        ] {
+            let sweeps = sweeps_of_a_cycle(&rates, mismatches);
+            assert!(sweeps.is_some_and(|n| n < 30), "{mismatches:?}: {sweeps:?}");
+        }
     }
 }
