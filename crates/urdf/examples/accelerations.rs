@@ -1,4 +1,4 @@
-//! Accelerations of a robot in a vacuum at random states, as JSON: what `tools/urdf/pinocchio.py` compares with Pinocchio's.
+//! Accelerations of a robot in a vacuum at random states, as JSON: what `tools/urdf/compare.py` compares with Pinocchio's.
 //!
 //! `cargo run --release -p lgvi-urdf --example accelerations -- robot.urdf free|world [STATES]`
 

@@ -2,7 +2,7 @@
 """Accelerations of a robot by lgvi and by Pinocchio, from the same URDF, at random states in a vacuum under gravity.
 
     cargo run --release -p lgvi-urdf --example accelerations -- robot.urdf free > states.json
-    python3 tools/urdf/pinocchio.py robot.urdf free states.json        # pip install pin
+    python3 tools/urdf/compare.py robot.urdf free states.json        # pip install pin
 
 The base is free or held by the world, in both. Exits with 1 where they differ by more than 1e-10 of the largest acceleration of a state.
 """
