@@ -39,26 +39,22 @@ pub(crate) enum Hang<'a> {
     },
 }
 
+impl Hang<'_> {
+    /// Whether the body is held and has no mass of its own.
+    pub fn is_stand_in(&self) -> bool {
+        matches!(self, Self::Held { has_mass: false })
+    }
+}
+
 /// The bodies of a robot, and why its base is as it is.
 pub(crate) fn stand(
-    mut parts: Vec<Part>,
+    parts: Vec<Part>,
     base: Option<Base>,
 ) -> Result<(Vec<Body>, &'static str), UrdfError> {
-    let mut masses = parts.iter().map(mass).collect::<Result<Vec<_>, _>>()?;
-    let on_root = |part: &&Part| part.on.is_some_and(|on| on.parent == 0);
-    let (hanging, has_mass) = (parts.iter().filter(on_root).count(), masses[0].mass > 0.0);
-    let floats = |part: &&Part| {
-        part.on
-            .is_some_and(|on| on.joint.joint_type == JointType::Floating)
-    };
-    let floating = parts.iter().find(floats).and_then(|part| part.on);
-    if let Some(on) = floating {
-        if has_mass || hanging > 1 || on.parent != 0 || base == Some(Base::World) {
-            let joint = on.joint.name.clone();
-            return Err(UrdfError::Floating { joint });
-        }
-        (parts.remove(0), masses.remove(0));
-        let bodies = bodies(parts, masses, 1, Hang::Free(on.at))?;
+    let masses = parts.iter().map(mass).collect::<Result<Vec<_>, _>>()?;
+    let has_mass = masses[0].mass > 0.0;
+    if let Some(first) = floating(&parts, has_mass, base)? {
+        let bodies = bodies(parts, masses, 1, first)?;
         return Ok((bodies, "free, by the floating joint of the file"));
     }
     let (base, why) = match (base, parts[0].name()) {
@@ -66,29 +62,57 @@ pub(crate) fn stand(
         (Some(Base::World), _) => (Base::World, "held by the world, as asked for"),
         (None, "world") => (Base::World, "held, as the root link is named world"),
         (None, _) if has_mass => (Base::Free, "free, as the root link has a mass"),
-        (None, _) => (
-            Base::World,
-            "held by the world, as the root link has no mass",
-        ),
+        (None, _) => (Base::World, "held, as the root link has no mass"),
     };
-    let bodies = match (base, has_mass, hanging) {
-        (Base::Free, ..) => bodies(parts, masses, 0, Hang::Free(Pose::identity())),
-        (Base::World, false, 0) => Err(UrdfError::Empty),
+    let bodies = match base {
+        Base::Free => bodies(parts, masses, 0, Hang::Free(Pose::identity())),
+        Base::World => held(parts, masses),
+    };
+    Ok((bodies?, why))
+}
+
+/// How the one body starts that floats beside a massless root, if the robot has such a joint.
+fn floating<'a>(
+    parts: &[Part<'a>],
+    has_mass: bool,
+    base: Option<Base>,
+) -> Result<Option<Hang<'a>>, UrdfError> {
+    let mut joints = parts.iter().filter_map(|part| part.on);
+    let Some(on) = joints.find(|on| on.joint.joint_type == JointType::Floating) else {
+        return Ok(None);
+    };
+    let is_base = on.parent == 0 && on_root(parts) == 1 && !has_mass;
+    match is_base && base != Some(Base::World) {
+        true => Ok(Some(Hang::Free(on.at))),
+        false => Err(UrdfError::Floating {
+            joint: on.joint.name.clone(),
+        }),
+    }
+}
+
+/// How many parts hang on the root.
+fn on_root(parts: &[Part]) -> usize {
+    let joints = parts.iter().filter_map(|part| part.on);
+    joints.filter(|on| on.parent == 0).count()
+}
+
+/// The bodies of a robot whose root link is held.
+fn held(parts: Vec<Part>, mut masses: Vec<Mass>) -> Result<Vec<Body>, UrdfError> {
+    match (masses[0].mass > 0.0, on_root(&parts), parts.get(1)) {
+        (false, 0, _) => Err(UrdfError::Empty),
         // What stands for the world need be no body.
-        (Base::World, false, 1) => {
-            (parts.remove(0), masses.remove(0));
-            let on = parts[0].on.map(|on| joint(&on, 1));
-            bodies(parts, masses, 1, on.ok_or(UrdfError::Empty)?)
+        (false, 1, Some(Part { on: Some(on), .. })) => {
+            let first = joint(on, 1);
+            bodies(parts, masses, 1, first)
         }
-        (Base::World, ..) => {
+        _ => {
             let has_mass = masses[0].check(parts[0].name()).is_ok();
             if !has_mass {
                 masses[0] = Mass::of_one();
             }
             bodies(parts, masses, 0, Hang::Held { has_mass })
         }
-    }?;
-    Ok((bodies, why))
+    }
 }
 
 /// The mass of a part, in the frame of its first link.
@@ -98,7 +122,7 @@ fn mass(part: &Part) -> Result<Mass, UrdfError> {
     Ok(Mass::sum(&masses.collect::<Result<Vec<_>, UrdfError>>()?))
 }
 
-/// The bodies of these parts, before which so many were left out.
+/// The bodies of these parts, without so many at the start.
 fn bodies<'a>(
     parts: Vec<Part<'a>>,
     masses: Vec<Mass>,
@@ -106,7 +130,8 @@ fn bodies<'a>(
     first: Hang<'a>,
 ) -> Result<Vec<Body<'a>>, UrdfError> {
     let mut bodies = Vec::with_capacity(parts.len());
-    for (index, (part, mass)) in parts.into_iter().zip(masses).enumerate() {
+    let parts = parts.into_iter().zip(masses).skip(without);
+    for (index, (part, mass)) in parts.enumerate() {
         mass.check(part.name())?;
         let hang = match (index, part.on) {
             (1.., Some(on)) => joint(&on, without),

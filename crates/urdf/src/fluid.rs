@@ -4,11 +4,18 @@ use lie::{Mat3, Vec3};
 
 use crate::shape::Solid;
 
+/// A place this close to the mass centre, relative to the ellipsoid's length, is there but for rounding.
+const ROUNDING: f64 = 1e-14;
+
 /// What the fluid does to a body, about its mass centre and in its frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
-    /// The added mass of 6 rows, translation first, kg, kg m and kg m².
-    pub added: [[f64; 6]; 6],
+    /// Added mass $M$, kg.
+    pub mass: Mat3,
+    /// How it couples velocity and turning, $C$ of $V \cdot C \Omega$, kg m.
+    pub coupling: Mat3,
+    /// Added inertia $J$, kg m².
+    pub inertia: Mat3,
     /// Of what is displaced, m³.
     pub volume: f64,
     /// Where the buoyancy acts, from the mass centre, m.
@@ -18,8 +25,14 @@ pub(crate) struct Share {
 /// The ellipsoids together, as if each were alone in the fluid: with $r$ from the mass centre to one that has the added mass $A$
 /// and the added inertia $B$, $M = \sum A$, $C = -\sum A \hat r$ and $J = \sum B - \hat r A \hat r$.
 pub(crate) fn share(solids: &[Solid], mass_centre: Vec3, density: f64) -> Share {
-    let (mut m, mut c, mut j) = (Mat3::zero(), Mat3::zero(), Mat3::zero());
-    let (mut volume, mut moment) = (0.0, Vec3::zero());
+    let mut share = Share {
+        mass: Mat3::zero(),
+        coupling: Mat3::zero(),
+        inertia: Mat3::zero(),
+        volume: 0.0,
+        centre: Vec3::zero(),
+    };
+    let mut moment = Vec3::zero();
     for solid in solids {
         let ellipsoid = &solid.ellipsoid;
         let turned = |diagonal| {
@@ -29,29 +42,36 @@ pub(crate) fn share(solids: &[Solid], mass_centre: Vec3, density: f64) -> Share 
                 .matrix()
                 .conjugate(Mat3::diagonal(diagonal))
         };
-        let (mass, inertia) = (
-            turned(ellipsoid.added_mass(density)),
-            turned(ellipsoid.added_inertia(density)),
-        );
-        let r = solid.centre() - mass_centre;
-        m = m + mass;
-        c = c - mass * r.hat();
-        j = j + inertia + r.hat().transpose() * mass * r.hat();
-        volume += ellipsoid.volume();
-        moment = moment + r * ellipsoid.volume();
+        let mass = turned(ellipsoid.added_mass(density));
+        let longest = ellipsoid.semi_axes().into_iter().fold(0.0, f64::max);
+        let r = match solid.frame.at - mass_centre {
+            r if r.norm() < ROUNDING * longest => Vec3::zero(),
+            r => r,
+        };
+        let by_place = r.hat().transpose() * mass * r.hat();
+        share.mass += mass;
+        share.coupling -= mass * r.hat();
+        share.inertia += turned(ellipsoid.added_inertia(density)) + by_place;
+        share.volume += ellipsoid.volume();
+        moment += r * ellipsoid.volume();
     }
-    let ct = c.transpose();
-    let row = |i: usize| match i {
-        0..3 => [m.0[i], c.0[i]].concat(),
-        _ => [ct.0[i - 3], j.0[i - 3]].concat(),
-    };
-    let centre = match volume {
-        0.0 => Vec3::zero(),
-        volume => moment * (1.0 / volume),
-    };
-    Share {
-        added: core::array::from_fn(|i| core::array::from_fn(|k| row(i)[k])),
-        volume,
-        centre,
+    if share.volume > 0.0 {
+        share.centre = moment * (1.0 / share.volume);
+    }
+    share
+}
+
+impl Share {
+    /// The added mass of 6 rows, translation first.
+    pub fn rows(&self) -> [[f64; 6]; 6] {
+        let (m, c, j) = (self.mass.0, self.coupling.0, self.inertia.0);
+        let ct = self.coupling.transpose().0;
+        let beside = |a: [f64; 3], b: [f64; 3]| {
+            core::array::from_fn(|k| if k < 3 { a[k] } else { b[k - 3] })
+        };
+        core::array::from_fn(|i| match i {
+            0..3 => beside(m[i], c[i]),
+            _ => beside(ct[i - 3], j[i - 3]),
+        })
     }
 }

@@ -83,8 +83,7 @@ pub fn import(text: &str, options: &Options) -> Result<Imported, UrdfError> {
     }
     let robot = text::parse(text)?;
     let (bodies, base) = base::stand(tree::parts(&robot)?, options.base)?;
-    let mut notes = vec![];
-    let text = scene::write(&robot.name, &bodies, base, options, &mut notes)?;
+    let (text, notes) = scene::write(&robot.name, &bodies, base, options)?;
     let scene = Scene::parse(&text, "the scene of the robot")?;
     Ok(Imported { text, scene, notes })
 }

@@ -12,14 +12,13 @@ use crate::options::Options;
 use crate::shape::{ShapeFrom, Solid, has_meshes_alone, solids};
 use crate::told::{Told, short};
 
-/// The bodies as a scene; `base` tells how the first one stands, and `notes` is given what is left out.
+/// The bodies as a scene, and what is left out; `base` tells how the first one stands.
 pub(crate) fn write(
     robot: &str,
     bodies: &[Body],
     base: &str,
     options: &Options,
-    notes: &mut Vec<Note>,
-) -> Result<String, UrdfError> {
+) -> Result<(String, Vec<Note>), UrdfError> {
     let (mut told, mut given) = (Told::default(), Names::without("world"));
     let mut names = vec![];
     for body in bodies {
@@ -39,37 +38,48 @@ pub(crate) fn write(
     for index in (1..bodies.len()).chain([0]) {
         joints += &joint(index, bodies, &names, &mut given, &mut told);
     }
-    *notes = told.into_notes();
-    let mass = bodies.iter().map(|body| body.mass.mass).sum();
-    let head = head(robot, base, options, [mass, displaced]);
-    let notes = notes.iter().map(|note| format!("# Note: {note}.\n"));
-    Ok(format!(
-        "{}{head}{listed}{joints}",
-        notes.collect::<String>()
-    ))
+    let own = bodies.iter().filter(|body| !body.hang.is_stand_in());
+    let mass = own.map(|body| body.mass.mass).sum();
+    let notes = told.into_notes();
+    let head = head(robot, base, options, [mass, displaced], &notes);
+    Ok((format!("{head}{listed}{joints}"), notes))
 }
 
 /// All but bodies and joints.
-fn head(robot: &str, base: &str, options: &Options, [mass, displaced]: [f64; 2]) -> String {
+fn head(
+    robot: &str,
+    base: &str,
+    options: &Options,
+    [mass, displaced]: [f64; 2],
+    notes: &[Note],
+) -> String {
     let robot = match robot {
         "" => "a robot",
         name => name,
     };
-    let fluid = match options.density {
-        0.0 => String::new(),
-        _ => format!(" It displaces {} kg of the fluid.", short(displaced)),
+    let (fluid, again) = match options.density {
+        0.0 => (String::new(), ""),
+        _ => (
+            format!(" It displaces {} kg of the fluid.", short(displaced)),
+            "; for another one, import the robot again",
+        ),
     };
+    let notes: Vec<String> = notes
+        .iter()
+        .map(|note| format!("# Note: {note}.\n"))
+        .collect();
     format!(
         "\
 # A robot of a URDF, as lgvi import wrote it.
 # Each body has the axes of its link, and its mass centre as origin. It starts at rest, with all angles 0.
 # The base is {base}. The whole has {} kg.{fluid}
-
+{}
 title = {}
 gravity = [0, 0, -9.81] # m/s^2, with z up; without this line nothing has a weight
-fluid.density = {} # kg/m^3
+fluid.density = {} # kg/m^3{again}
 ",
         short(mass),
+        notes.concat(),
         quoted(robot),
         number(options.density),
     )
@@ -83,16 +93,15 @@ fn one(
     options: &Options,
     told: &mut Told,
 ) -> Result<(String, f64), UrdfError> {
-    let mut text = String::from("\n");
-    let mut start = String::new();
-    if let Hang::Free(pose) = &body.hang {
-        let position = pose.place(body.mass.centre);
-        start = format!("[start]\nposition = {}\n\n", vector(position));
-    }
-    text += &start;
+    let mut text = match &body.hang {
+        Hang::Free(pose) => {
+            let position = vector(pose.place(body.mass.centre));
+            format!("\n[start]\nposition = {position}\n\n")
+        }
+        _ => "\n".to_owned(),
+    };
     text += &links(body);
-    let is_stand_in = matches!(body.hang, Hang::Held { has_mass: false });
-    let share = match options.density > 0.0 && !is_stand_in {
+    let share = match options.density > 0.0 && !body.hang.is_stand_in() {
         true => {
             let (comments, share) = in_fluid(body, options, told)?;
             text += &comments;
@@ -157,17 +166,22 @@ fn in_fluid(body: &Body, options: &Options, told: &mut Told) -> Result<(String, 
 }
 
 fn of_fluid(share: &Share) -> String {
-    let rows: Vec<String> = share
-        .added
-        .iter()
-        .map(|row| format!("  {},\n", array(row)))
-        .collect();
-    format!(
-        "added_mass = [\n{}]\nvolume = {}\nbuoyancy_at = {}\n",
-        rows.concat(),
-        number(share.volume),
-        vector(share.centre)
-    )
+    let added = match share.coupling == Mat3::zero() {
+        true => format!(
+            "added_mass = {}\nadded_inertia = {}\n",
+            symmetric(share.mass),
+            symmetric(share.inertia)
+        ),
+        false => {
+            let rows = share.rows().map(|row| format!("  {},\n", array(&row)));
+            format!("added_mass = [\n{}]\n", rows.concat())
+        }
+    };
+    let centre = match share.centre == Vec3::zero() {
+        true => String::new(),
+        false => format!("buoyancy_at = {}\n", vector(share.centre)),
+    };
+    format!("{added}volume = {}\n{centre}", number(share.volume))
 }
 
 /// How the body of this index hangs.

@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use articulated_fluid::Ellipsoid;
-use lie::Vec3;
 use urdf_rs::{Collision, Geometry, Link};
 
 use crate::error::UrdfError;
@@ -139,10 +138,5 @@ impl Solid {
     pub fn seen_from(self, pose: &Pose) -> Self {
         let frame = pose.then(&self.frame);
         Self { frame, ..self }
-    }
-
-    /// Where its centre is.
-    pub fn centre(&self) -> Vec3 {
-        self.frame.at
     }
 }

@@ -185,8 +185,8 @@ pub fn sum(parts: &[(f64, Vec3, Mat3)]) -> (f64, Vec3, Mat3) {
     let (mut mass, mut moment, mut about) = (0.0, Vec3::zero(), Mat3::zero());
     for (m, at, inertia) in parts {
         mass += m;
-        moment = moment + *at * *m;
-        about = about + *inertia + steiner(*m, *at);
+        moment += *at * *m;
+        about += *inertia + steiner(*m, *at);
     }
     let centre = moment * (1.0 / mass);
     (mass, centre, about - steiner(mass, centre))
