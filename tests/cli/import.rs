@@ -37,18 +37,27 @@ fn a_robot_becomes_a_scene_that_runs() {
     let stroke = turtle().replace("turtle.urdf", "turtle-stroke.toml");
     scene += &fs::read_to_string(stroke).unwrap();
     fs::write(directory.path().join("turtle.toml"), scene).unwrap();
-    let args = [
+    let run = [
         "run",
         "turtle.toml",
         "--until",
-        "0.5",
+        "3.5",
+        "--method",
+        "gauss-4",
         "--step",
-        "0.02",
+        "0.05",
+        "--out",
+        "t.csv",
         "--json",
     ];
-    let report = json(directory.path(), &args);
+    let report = json(directory.path(), &run);
     assert_eq!(report["bodies"], 7);
     assert_eq!(report["drives"].as_array().unwrap().len(), 6);
+    // Forward, and not to the side.
+    let (_, rows) = table(&directory.path().join("t.csv"));
+    let [start, end] = [&rows[0], &rows[rows.len() - 1]].map(|row| numbers(row));
+    assert!(end[1] - start[1] > 0.1, "{end:?}");
+    assert!((end[2] - start[2]).abs() < 1e-12, "{end:?}");
 }
 
 #[test]
