@@ -1,11 +1,15 @@
 //! Rust's errors as Python's, with their fields.
 
+use std::io::ErrorKind;
+use std::path::Path;
+
 use articulated_fluid::SceneError;
 use dvi::{Cause, Hint, StepError};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sim::SimError;
+use urdf::UrdfError;
 
 /// An exception of `lgvi._errors` with a message and fields.
 fn with_fields(py: Python<'_>, class: &str, message: &str, fields: &Bound<'_, PyDict>) -> PyErr {
@@ -20,11 +24,8 @@ fn with_fields(py: Python<'_>, class: &str, message: &str, fields: &Bound<'_, Py
 pub fn of_scene(py: Python<'_>, error: &SceneError) -> PyErr {
     let message = error.to_string();
     match error {
-        SceneError::Io { source, .. } if source.kind() != std::io::ErrorKind::InvalidData => {
-            match source.raw_os_error() {
-                Some(code) => PyOSError::new_err((code, message)),
-                None => PyOSError::new_err(message),
-            }
+        SceneError::Io { source, .. } if source.kind() != ErrorKind::InvalidData => {
+            of_file(source, message)
         }
         SceneError::Invalid {
             file,
@@ -45,6 +46,28 @@ pub fn of_scene(py: Python<'_>, error: &SceneError) -> PyErr {
             }
         }
         _ => with_fields(py, "SceneError", &message, &PyDict::new(py)),
+    }
+}
+
+/// A robot's: `OSError` where the file cannot be read, else `lgvi.SceneError` with the file alone.
+pub fn of_robot(py: Python<'_>, file: &Path, error: &UrdfError) -> PyErr {
+    let message = format!("{}: {error}", file.display());
+    if let UrdfError::Io(source) = error
+        && source.kind() != ErrorKind::InvalidData
+    {
+        return of_file(source, message);
+    }
+    let fields = PyDict::new(py);
+    match fields.set_item("file", file.display().to_string()) {
+        Ok(()) => with_fields(py, "SceneError", &message, &fields),
+        Err(error) => error,
+    }
+}
+
+fn of_file(source: &std::io::Error, message: String) -> PyErr {
+    match source.raw_os_error() {
+        Some(code) => PyOSError::new_err((code, message)),
+        None => PyOSError::new_err(message),
     }
 }
 

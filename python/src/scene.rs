@@ -10,6 +10,7 @@ use articulated_fluid::scene::{self, Scene, SceneError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use urdf::{Base, Options, ShapeFrom};
 
 use crate::attend::attend;
 use crate::errors;
@@ -59,6 +60,11 @@ impl NativeScene {
     }
 }
 
+/// The error that an argument is none of those expected.
+fn unknown(name: &str, given: &str, expected: &str) -> PyErr {
+    PyValueError::new_err(format!("{name} is {given:?}; expected {expected}"))
+}
+
 #[pymethods]
 impl NativeScene {
     #[staticmethod]
@@ -75,6 +81,39 @@ impl NativeScene {
     #[staticmethod]
     fn example(py: Python<'_>) -> PyResult<Self> {
         Self::parse(py, FISH, "fish-chain.toml".into())
+    }
+
+    /// The scene of a robot, and what of the robot is not in it.
+    #[staticmethod]
+    fn from_urdf(
+        py: Python<'_>,
+        file: PathBuf,
+        density: f64,
+        base: Option<&str>,
+        shape_from: &str,
+    ) -> PyResult<(Self, Vec<String>)> {
+        let options = Options {
+            density,
+            base: match base {
+                None => None,
+                Some("free") => Some(Base::Free),
+                Some("world") => Some(Base::World),
+                Some(other) => return Err(unknown("base", other, "\"free\", \"world\" or None")),
+            },
+            shape_from: match shape_from {
+                "collision" => ShapeFrom::Collision,
+                "inertia" => ShapeFrom::Inertia,
+                other => {
+                    let expected = "\"collision\" or \"inertia\"";
+                    return Err(unknown("shape_from", other, expected));
+                }
+            },
+        };
+        let imported = urdf::load(&file, &options);
+        let imported = imported.map_err(|error| errors::of_robot(py, &file, &error))?;
+        let scene = Self::parse(py, &imported.text, file.with_extension("toml"))?;
+        let notes = imported.notes.iter().map(ToString::to_string).collect();
+        Ok((scene, notes))
     }
 
     /// From what [`state`](Self::state) gives.

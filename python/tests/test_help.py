@@ -21,7 +21,7 @@ def test_everything_public_has_help(name):
 
 
 @pytest.mark.parametrize(
-    "function", [lgvi.Scene.simulate, lgvi.ensemble, lgvi.System.simulate, lgvi.System.__init__], ids=lambda f: f.__qualname__
+    "function", [lgvi.Scene.simulate, lgvi.Scene.from_urdf, lgvi.ensemble, lgvi.System.simulate, lgvi.System.__init__], ids=lambda f: f.__qualname__
 )
 def test_every_argument_is_told(function):
     told = inspect.getdoc(function) or ""

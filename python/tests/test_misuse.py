@@ -72,7 +72,7 @@ MISUSES = [
     (lambda: SCENE.replace({"joint.tail-1.stiffnes": 1.0}), lgvi.SceneError, r"joint\.stiffnes: unknown key; expected one of"),
     (lambda: SCENE.replace({"joint.tail-1.stiffness": -1.0}), lgvi.SceneError, r"joint\.stiffness: .*expected"),
     (lambda: SCENE.replace({"fluid.density": 1j}), TypeError, r"fluid\.density: a scene has no value of type complex"),
-    (lambda: lgvi.Scene(), TypeError, r"made by Scene\.load\(path\), Scene\.parse\(text\) or Scene\.example\(\)"),
+    (lambda: lgvi.Scene(), TypeError, r"made by Scene\.load\(path\), Scene\.parse\(text\), Scene\.from_urdf\(path\) or Scene\.example\(\)"),
     (lambda: lgvi.ensemble([SCENE, "fish.toml"], 1), TypeError, r"scenes\[1\] is str; expected a lgvi\.Scene"),
     # Lagrangians.
     (lambda: lgvi.System(branching, lgvi.SO3), lgvi.TraceError, r"test_misuse\.py:%d: a branch asks how numbers compare.*lgvi\.where" % (branching.__code__.co_firstlineno + 2)),

@@ -9,6 +9,8 @@ use thiserror::Error;
 pub enum ValueError {
     #[error("expected a finite number > 0, in seconds")]
     Seconds,
+    #[error("expected a finite number >= 0, in kg/m^3: 1000 of water, 0 of a vacuum")]
+    Density,
     #[error(
         "expected a number > 0 and <= {LARGEST_ACCURACY}, such as 1e-9; an attitude is never more than pi off"
     )]
@@ -33,6 +35,13 @@ pub fn accuracy(text: &str) -> Result<f64, ValueError> {
         .ok()
         .filter(|value| *value <= LARGEST_ACCURACY);
     value.ok_or(ValueError::Accuracy)
+}
+
+/// A density in kg/m³: finite, and not negative.
+pub fn density(text: &str) -> Result<f64, ValueError> {
+    let value = text.parse().map_err(|_| ValueError::Density)?;
+    let valid = f64::is_finite(value) && value >= 0.0;
+    valid.then_some(value).ok_or(ValueError::Density)
 }
 
 /// How many: at least one.

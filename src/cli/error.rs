@@ -13,6 +13,7 @@ use sim::number::decimal;
 #[cfg(feature = "chart")]
 use study::{stability::ParameterError, work_precision::UnknownReference};
 use thiserror::Error;
+use urdf::UrdfError;
 use view::NpzError;
 
 /// The exit code of a run or a write that failed.
@@ -29,6 +30,8 @@ pub enum CliError {
     Scene(#[from] SceneError),
     #[error("{file}: {source}")]
     Model { file: String, source: ModelError },
+    #[error("{file}: {source}")]
+    Robot { file: String, source: UrdfError },
     #[error("{}{}{}", option(.0), .0, advice(.0))]
     Sim(#[from] SimError),
     #[error("--out {} is the scene itself; give what is written another name", .0.display())]
@@ -110,7 +113,7 @@ impl CliError {
     /// The exit code that tells this error's kind.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self {
-            Self::Scene(_) | Self::Model { .. } => USAGE,
+            Self::Scene(_) | Self::Model { .. } | Self::Robot { .. } => USAGE,
             Self::OutputIsScene(_) | Self::OutputIsDash => USAGE,
             Self::OutputFormat(_) | Self::OutputTwice(_) | Self::BesideWithoutPage => USAGE,
             Self::Output { source, .. } if source.is_of_the_path() => USAGE,

@@ -9,6 +9,7 @@ mod contenders;
 mod error;
 #[cfg(feature = "chart")]
 mod files;
+mod import;
 mod inspect;
 mod interrupt;
 mod methods;
@@ -47,6 +48,7 @@ Examples:
   lgvi run boat.toml --step 0.01        a scene of one's own
   lgvi view boat.toml                   its moving picture, in the browser
   lgvi run --method gauss-4             another integrator, at its own default step{EXPERIMENTS}
+  lgvi import robot.urdf > robot.toml   a robot as a scene
   lgvi inspect boat.toml                what it is modelled with, and why
   lgvi methods                          the integrators: orders, steps, costs
   lgvi run --help                       options, CSV columns, keys of a scene"
@@ -72,6 +74,7 @@ enum Command {
     Chart(chart::Args),
     #[cfg(feature = "chart")]
     Stability(stability::Args),
+    Import(import::Args),
     Inspect(inspect::Args),
     Methods(methods::Args),
 }
@@ -85,6 +88,7 @@ impl Command {
             Self::Chart(args) => chart::execute(args),
             #[cfg(feature = "chart")]
             Self::Stability(args) => stability::execute(args),
+            Self::Import(args) => import::execute(args),
             Self::Inspect(args) => inspect::execute(args),
             Self::Methods(args) => methods::execute(args),
         }

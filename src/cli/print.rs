@@ -33,6 +33,12 @@ pub fn warning(what: &impl Display) {
     stderr(&format!("warning: {what}\n"));
 }
 
+/// Writes what is worth knowing to stderr, on a line.
+pub fn note(what: &impl Display) {
+    let what = escaped(&what.to_string(), |_| false);
+    stderr(&format!("note: {what}\n"));
+}
+
 /// The text with its control characters written out, but for those to be kept: paths and arguments may have any, and a terminal
 /// obeys them.
 pub fn escaped(text: &str, is_kept: impl Fn(char) -> bool) -> String {

@@ -1,6 +1,6 @@
 //! What the bodies of a scene look like, and how they hang together.
 
-use articulated_fluid::scene::{Mobility, SceneBody};
+use articulated_fluid::scene::{Form, Mobility, SceneBody};
 use articulated_fluid::{JointKind, Motion, Scene};
 use lie::Vec3;
 use serde::Serialize;
@@ -95,14 +95,22 @@ fn reaches(scene: &Scene) -> Vec<f64> {
     reaches
 }
 
-/// The semi-axes that a scene gives; else those of the uniform ellipsoid with the body's moments of inertia,
+/// The semi-axes that a scene gives; else those of the uniform ellipsoid with the body's moments of inertia, its own where they are known,
 /// $a_x^2 = \frac{5}{2m} (J_y + J_z - J_x)$, made smaller where it would reach beyond the joints.
 fn axes(body: &SceneBody, reach: f64) -> [f64; 3] {
     if let Some(axes) = body.semi_axes() {
         return axes;
     }
-    let mass = [0, 1, 2].map(|i| body.total_mass[i][i]).iter().sum::<f64>() / 3.0;
-    let [x, y, z] = [0, 1, 2].map(|i| body.total_inertia[i][i]);
+    let total = || [0, 1, 2].map(|i| body.total_mass[i][i]).iter().sum::<f64>() / 3.0;
+    let (mass, inertia) = match body.form {
+        Form::Given {
+            mass: Some(mass),
+            inertia: Some(inertia),
+            ..
+        } => (mass, inertia),
+        _ => (total(), body.total_inertia),
+    };
+    let [x, y, z] = [0, 1, 2].map(|i| inertia[i][i]);
     let squares = [y + z - x, z + x - y, x + y - z].map(|square| square * 2.5 / mass);
     let largest = squares.into_iter().fold(0.0, f64::max).sqrt();
     // What the fluid adds can leave nothing of an axis.
@@ -116,6 +124,22 @@ fn axes(body: &SceneBody, reach: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A flat body that the fluid makes heavy to move across, and to turn.
+    #[test]
+    fn what_the_fluid_adds_does_not_change_how_a_body_is_drawn() {
+        let text = |density: f64, added: &str| {
+            format!(
+                "fluid.density = {density}\nbody = [{{ name = 'a', mass = 1, inertia = [0.1, 0.2, 0.25], {added} }}]"
+            )
+        };
+        let axes = |text: &str| solids(&Scene::parse(text, "s.toml").unwrap())[0].axes;
+        let wet = text(
+            1.0,
+            "added_mass = [0.1, 0.2, 5], added_inertia = [0.3, 0.9, 0], volume = 1",
+        );
+        assert_eq!(axes(&text(0.0, "")), axes(&wet));
+    }
 
     #[test]
     fn a_body_without_a_shape_is_drawn_as_long_as_its_joints_ask_for() {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ from ._run import Run
 class Scene:
     """Rigid bodies on joints, in a perfect fluid or in a vacuum: what ``lgvi run`` reads from a TOML file.
 
-    Made by ``Scene.load``, ``Scene.parse`` or ``Scene.example``, it never changes; ``replace`` gives another one.
+    Made by ``Scene.load``, ``Scene.parse``, ``Scene.from_urdf`` or ``Scene.example``, it never changes; ``replace`` gives another one.
     ``print(Scene.keys())`` tells every key of such a file with its unit.
 
     A scene can be pickled, and then has with it the tables that it reads, such as measured strokes.
@@ -28,7 +29,7 @@ class Scene:
     _native: NativeScene
 
     def __init__(self) -> None:
-        raise TypeError("a scene is made by Scene.load(path), Scene.parse(text) or Scene.example()")
+        raise TypeError("a scene is made by Scene.load(path), Scene.parse(text), Scene.from_urdf(path) or Scene.example()")
 
     @classmethod
     def _of(cls, native: NativeScene) -> Scene:
@@ -65,6 +66,36 @@ class Scene:
     def example(cls) -> Scene:
         """The three ellipsoids of Lee, Leok & McClamroch (2009), which ``lgvi run`` has built in."""
         return cls._of(NativeScene.example())
+
+    @classmethod
+    def from_urdf(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        fluid: float = 0.0,
+        base: str | None = None,
+        shape_from: str = "collision",
+    ) -> Scene:
+        """The scene of a robot that a URDF file describes, in its zero pose and at rest, as ``lgvi import`` writes it.
+
+        path        the file.
+        fluid       density of the fluid, kg/m^3: 1000 of water, 0 of a vacuum.
+        base        what holds the root link: "free" or "world". None: the world where the link is named world or
+                    has, with what is fixed to it, no mass; else it is free.
+        shape_from  what the ellipsoids are made from that stand for the links in the fluid: "collision", the
+                    boxes, cylinders, spheres and capsules, or "inertia". A link without such a shape has that
+                    of its inertia; meshes are not read.
+
+        What of the robot is not in the scene, such as limits of joints, is told by a ``UserWarning`` for each
+        kind. Raises ``OSError`` where the file cannot be read, and ``lgvi.SceneError`` where the robot has what
+        a scene has not: prismatic, planar and mimicking joints, loops, links that move without a mass.
+
+        >>> turtle = lgvi.Scene.from_urdf("turtle.urdf", fluid=1000)
+        """
+        native, notes = NativeScene.from_urdf(os.fspath(path), float(fluid), base, shape_from)
+        for note in notes:
+            warnings.warn(note, stacklevel=2)
+        return cls._of(native)
 
     def replace(self, changes: Mapping[str, Any]) -> Scene:
         """The same scene with other values: by the path of a key, with bodies and joints by their names.

@@ -107,12 +107,12 @@ impl SceneBody {
         }
     }
 
-    /// A body of this own mass, kg, if it is known, and of these totals, as [`total_mass`](Self::total_mass),
+    /// A body of this own mass, kg, and inertia, kg m², if they are known, and of these totals, as [`total_mass`](Self::total_mass),
     /// [`total_inertia`](Self::total_inertia) and [`net_mass`](Self::net_mass): at rest, and aligned with the reference frame.
     pub fn given(
         name: &str,
         shape: Option<Ellipsoid>,
-        mass: Option<f64>,
+        own: Option<(f64, [[f64; 3]; 3])>,
         [total_mass, total_inertia]: [[[f64; 3]; 3]; 2],
         net_mass: f64,
     ) -> Self {
@@ -120,7 +120,8 @@ impl SceneBody {
             name: name.to_owned(),
             form: Form::Given {
                 shape: shape.map(|shape| shape.semi_axes()),
-                mass,
+                mass: own.map(|(mass, _)| mass),
+                inertia: own.map(|(_, inertia)| inertia),
             },
             total_mass,
             total_inertia,
@@ -181,6 +182,8 @@ pub enum Form {
         shape: Option<[f64; 3]>,
         /// The body's own mass, kg, if it is known.
         mass: Option<f64>,
+        /// Its own inertia about its mass centre in the body frame, kg m², if it is known.
+        inertia: Option<[[f64; 3]; 3]>,
     },
 }
 

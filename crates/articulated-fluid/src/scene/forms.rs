@@ -107,7 +107,7 @@ fn explicit(table: &Table, name: &str, around: &Surroundings) -> Result<SceneBod
     match (total_mass, total_inertia, net.is_finite()) {
         (Some(total_mass), Some(total_inertia), true) => {
             let totals = [total_mass, total_inertia];
-            let body = SceneBody::given(name, shape, Some(mass), totals, net);
+            let body = SceneBody::given(name, shape, Some((mass, inertia)), totals, net);
             Ok(SceneBody { coupling, ..body })
         }
         _ => Err(out_of_range(&field)),

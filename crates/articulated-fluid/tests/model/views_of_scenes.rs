@@ -26,6 +26,7 @@ fn scene(sample: &Sample, velocity: StartVelocity) -> Scene {
             form: Form::Given {
                 shape: None,
                 mass: None,
+                inertia: None,
             },
             total_mass: body.mass.0,
             total_inertia: body.inertia.0,

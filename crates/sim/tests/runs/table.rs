@@ -225,7 +225,11 @@ fn the_centre_is_that_of_the_own_masses_if_all_are_known() {
     scene.bodies[1] = SceneBody::ellipsoid("b", &shape, 3.0, 100.0);
     assert_eq!(scene.centre_masses(), [1.0, 3.0]);
     scene.bodies[1].total_mass = [[4.0, 0.0, 0.0], [0.0, 5.0, 0.0], [0.0, 0.0, 9.0]];
-    let given = |mass| Form::Given { shape: None, mass };
+    let given = |mass| Form::Given {
+        shape: None,
+        mass,
+        inertia: None,
+    };
     scene.bodies[1].form = given(Some(2.0));
     assert_eq!(scene.centre_masses(), [1.0, 2.0]);
     scene.bodies[1].form = given(None);

@@ -35,9 +35,14 @@ impl Units {
                     semi_axes: scaled(semi_axes, length),
                     mass: own * mass,
                 },
-                Form::Given { shape, mass: own } => Form::Given {
+                Form::Given {
+                    shape,
+                    mass: own,
+                    inertia: about,
+                } => Form::Given {
                     shape: shape.map(|axes| scaled(axes, length)),
                     mass: own.map(|own| own * mass),
+                    inertia: about.map(|about| about.map(|row| scaled(row, inertia))),
                 },
             };
             body.total_mass = body.total_mass.map(|row| scaled(row, mass));

@@ -228,6 +228,10 @@ fn weigh(scene: &mut Scene, value: f64) {
         body.form = Form::Given {
             shape: body.semi_axes(),
             mass: body.mass().map(|mass| value * mass),
+            inertia: match body.form {
+                Form::Given { inertia, .. } => inertia.map(scaled),
+                Form::Ellipsoid { .. } => None,
+            },
         };
     }
 }
