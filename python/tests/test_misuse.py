@@ -73,6 +73,11 @@ MISUSES = [
     (lambda: SCENE.replace({"joint.tail-1.stiffness": -1.0}), lgvi.SceneError, r"joint\.stiffness: .*expected"),
     (lambda: SCENE.replace({"fluid.density": 1j}), TypeError, r"fluid\.density: a scene has no value of type complex"),
     (lambda: lgvi.Scene(), TypeError, r"made by Scene\.load\(path\), Scene\.parse\(text\), Scene\.from_urdf\(path\) or Scene\.example\(\)"),
+    (lambda: lgvi.Scene.load("[[body]]\nname = 'hull'"), ValueError, r"several lines; .* use Scene\.parse\(text\)"),
+    (lambda: lgvi.Scene.parse("fish.toml"), ValueError, r"expected the text of a scene, or use Scene\.load\(path\)"),
+    (lambda: lgvi.ensemble(SCENE, 1), TypeError, r"scenes is one lgvi\.Scene; expected several"),
+    (lambda: lgvi.ensemble([SCENE], 1, "lgvi", 0.1).stack("positon"), KeyError, r"no column is called 'positon'; expected one of t, "),
+    (lambda: lgvi.ensemble([SCENE], 1, "lgvi", 0.1).report("acuracy"), KeyError, r"no entry of a report is called 'acuracy'; expected one of .*method"),
     (lambda: lgvi.ensemble([SCENE, "fish.toml"], 1), TypeError, r"scenes\[1\] is str; expected a lgvi\.Scene"),
     # Lagrangians.
     (lambda: lgvi.System(branching, lgvi.SO3), lgvi.TraceError, r"test_misuse\.py:%d: a branch asks how numbers compare.*lgvi\.where" % (branching.__code__.co_firstlineno + 2)),
@@ -96,6 +101,9 @@ MISUSES = [
     (lambda: TOP.simulate(1, EYE, [0, 0, 1]), TypeError, r"step"),
     (lambda: lgvi.System(lambda t, x, v: 0.5 * v[0] ** 2, lgvi.Rn(2)).simulate(1, [0, 0], [1, 0], step=0.1), lgvi.StepError, r"step 0 at t = 0 s: the kinetic energy has no inertia along coordinate 1"),
     (lambda: TOP.replace({"mass": 2}), ValueError, r"no parameter is called 'mass'; expected one of none"),
+    (lambda: lgvi.SO3 * 3, TypeError, r"SO3 \* 3 is no product of groups; a power is SO3\*\*n"),
+    (lambda: TOP.simulate(1, [0, 0, 1], [0, 0, 1], step=0.1), ValueError, r"g has the shape \(3,\); expected \(3, 3\), a rotation matrix: SO3\.exp"),
+    (lambda: lgvi.System(lambda t, x, v, p: p["J"] * v[0] ** 2, lgvi.Rn(1), parameters={"mass": 1.0}), KeyError, r"no parameter is called 'J'; expected one of mass"),
     (lambda: lgvi.SO3**0, ValueError, r"the power is 0; expected a whole number of at least 1"),
 ]
 

@@ -5,6 +5,7 @@ import pickle
 import lgvi
 import numpy as np
 import pytest
+from lgvi._groups import _Layout
 
 INERTIA = np.diag([1.0, 1.0, 0.5])
 START = lgvi.SO3.exp([0.3, 0, 0]), [0.0, 0.0, 10.0]
@@ -233,3 +234,18 @@ def test_a_law_that_fails_is_told(capsys):
     degenerate = lgvi.System(lambda t, x, v: 0.5 * v[0] ** 2 - x @ x, lgvi.Rn(2))
     assert not degenerate.check([0.1, 0.2], [1.0, 0.0])
     assert "no inertia" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("group", [lgvi.SO2, lgvi.SO2 * lgvi.SO3, lgvi.SO2**2 * lgvi.Rn(1), lgvi.SE2 * lgvi.SO2, lgvi.SE3])
+def test_a_drag_slows_every_group_down(group):
+    def squared(xi):
+        return sum(map(squared, xi)) if isinstance(xi, tuple) else np.sum(np.square(xi))
+
+    def times(c, xi):
+        return tuple(times(c, part) for part in xi) if isinstance(xi, tuple) else c * np.asarray(xi)
+
+    # Every coordinate has an inertia of one: what the drag leaves of the energy is known.
+    system = lgvi.System(lambda t, g, xi: 0.5 * squared(xi), group, force=lambda t, g, xi: times(-0.5, xi))
+    first = _Layout(group).velocity(np.ones(group.dim))
+    motion = system.simulate(1.0, group.identity(), first, "gauss-4", step=0.05)
+    assert abs(motion.energy[-1] / motion.energy[0] - np.exp(-1.0)) < 1e-12

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 import sys
 import time
@@ -106,3 +107,12 @@ def reporter(progress: Progress, end: float, unit: str) -> Callable[[float], obj
         print(f"\r{reached:.4g} of {end:.4g} {unit}, {spent:.1f} s spent", end=last, file=sys.stderr, flush=True)
 
     return line
+
+
+def needed(module: str) -> Any:
+    """A module of a package that this one can do without."""
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        package = module.partition(".")[0]
+        raise ModuleNotFoundError(f"this takes {package}: pip install {package}", name=package) from error

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arguments import Progress, count, plan, reporter
+from ._arguments import Progress, count, needed, plan, reporter
 from ._lgvi import ensemble as _ensemble
 from ._run import Array, Run
 from ._scene import Scene
@@ -48,9 +48,16 @@ class Ensemble:
     def stack(self, name: str) -> Array:
         """An array of all runs, such as ``batch.stack("energy")``: (M, T, ...), NaN throughout where a run failed.
 
+        name  an array of ``lgvi.Run``, or a column of its table such as ``"tail.work"``
+
         The runs must have frames at equal times: give ``t`` as an array.
         """
-        arrays = [None if isinstance(row, Exception) else getattr(row, name) for row in self._rows]
+
+        def array_of(run: Run) -> Array:
+            array = getattr(run, name, None) if name.isidentifier() else None
+            return array if isinstance(array, np.ndarray) else run.column(name)
+
+        arrays = [None if isinstance(row, Exception) else array_of(row) for row in self._rows]
         shapes = {array.shape for array in arrays if array is not None}
         if len(shapes) != 1:
             found = "no run succeeded" if not shapes else f"the shapes differ: {sorted(shapes)}"
@@ -60,12 +67,17 @@ class Ensemble:
 
     def report(self, name: str) -> list[Any]:
         """An entry of all reports, such as ``"energy_error_max_relative"``; None where a run failed."""
-        return [None if isinstance(row, Exception) else row.report[name] for row in self._rows]
+
+        def entry(report: dict[str, Any]) -> Any:
+            if name not in report:
+                raise KeyError(f"no entry of a report is called {name!r}; expected one of {', '.join(report)}")
+            return report[name]
+
+        return [None if isinstance(row, Exception) else entry(row.report) for row in self._rows]
 
     def to_pandas(self) -> Any:
         """A ``pandas.DataFrame`` with a row for each scene: its report, and its error, if it failed. Takes pandas."""
-        import pandas
-
+        pandas = needed("pandas")
         rows = [
             {"error": str(row)} if isinstance(row, Exception) else {**row.report, "error": None} for row in self._rows
         ]
@@ -105,6 +117,8 @@ def ensemble(
     To share it among processes or machines, map this function over parts of the list: scenes and results can be
     pickled.
     """
+    if isinstance(scenes, Scene):
+        raise TypeError("scenes is one lgvi.Scene; expected several, such as [scene.replace(changes) for changes in ...]")
     scenes = list(scenes)
     for i, scene in enumerate(scenes):
         if not isinstance(scene, Scene):

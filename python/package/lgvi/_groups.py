@@ -53,11 +53,14 @@ class Group:
     products and powers as above
 
     A momentum mu = dL/dxi, and a force, have the shape of a velocity.
+
+    A step solves a rotation in Cayley's chart, tan(angle / 2): keep the turn in a step well below 1 rad. A rotor that
+    does nothing but spin fast is exact on Rn(1), whose steps may be long.
     """
 
     def __mul__(self, other: Group) -> Group:
         if not isinstance(other, Group):
-            return NotImplemented
+            raise TypeError(f"{self!r} * {other!r} is no product of groups; a power is {self!r}**n")
         return _Product([*_factors(self), *_factors(other)])
 
     def __pow__(self, n: int) -> Group:
@@ -254,7 +257,8 @@ class _Layout:
                     put(leaf[k], part, f"{name}[{k}]")
                 return
             places = leaf.velocity[..., 0] if leaf.kind in (0, 4) else leaf.velocity
-            out[places] = _array(xi, places.shape, name, dtype)
+            # A number, not an array of one: that would be stored as it is among traced numbers.
+            out[places] = _array(xi, places.shape, name, dtype)[()]
 
         put(self.tree, xi, name)
         return out
@@ -299,5 +303,6 @@ def _array(x: Any, shape: tuple[int, ...], name: str, dtype: Any = float) -> Any
     except (TypeError, ValueError) as error:
         raise type(error)(f"{name} is no array of numbers: {error}") from None
     if array.shape != shape:
-        raise ValueError(f"{name} has the shape {array.shape}; expected {shape}")
+        hint = ", a rotation matrix: SO3.exp(xi) makes one" if shape[-2:] == (3, 3) else ""
+        raise ValueError(f"{name} has the shape {array.shape}; expected {shape}{hint}")
     return array

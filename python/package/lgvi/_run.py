@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ._arguments import needed
+
 if TYPE_CHECKING:
     from ._scene import Scene
 
@@ -21,7 +23,11 @@ Array = NDArray[np.float64]
 
 
 class Hinge(NamedTuple):
-    """A free hinge of a run."""
+    """A free hinge of a run.
+
+    angle  (T,)  not wrapped, rad
+    rate   (T,)  rad/s
+    """
 
     angle: Array
     """Not wrapped, rad, (T,)."""
@@ -30,7 +36,14 @@ class Hinge(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """What moves a joint as told, its torque, damper or servo, in a run."""
+    """What moves a joint as told, its torque, damper or servo, in a run.
+
+    work    (T,)    done on the bodies since the start, J
+    power   (T,)    the mean since the frame before, W; zero in the first frame
+    torque  (T, 3)  likewise a mean: on the child, in the reference frame, N m
+
+    Means tell what happened between two frames. For the course in time give many frames.
+    """
 
     work: Array
     """Since the start, J, (T,)."""
@@ -73,9 +86,10 @@ class Run:
     angular_momentum  (T, 3)        of bodies and fluid about the origin, kg m^2/s
     energy            (T,)          kinetic and potential, of bodies and fluid, J
     work              (T,)          of all drives, dampers, drag and thrust since the start, J
-    joints            names -> Hinge: the free hinges
+    joints            names -> Hinge: the free hinges; one that moves as told is where the scene tells it to be
     drives            names -> Drive: what moves as told, has a torque, a damper or a servo
-    report            names -> values: cost of the steps, errors of what the motion keeps
+    report            names -> values: cost of the steps, errors of what the motion keeps. The largest power and
+                      torque of a drive are those of means over a step: they grow a little with shorter steps.
     names, table      (T, C)        all columns as the command's CSV has them, and their names
 
     The energy less the work is what a motion keeps.
@@ -191,8 +205,7 @@ class Run:
 
     def to_pandas(self) -> Any:
         """A ``pandas.DataFrame`` of all columns, with the time as its index. Takes pandas."""
-        import pandas
-
+        pandas = needed("pandas")
         return pandas.DataFrame(self.table, columns=list(self.names)).set_index("t")
 
     def to_parquet(self, path: str | os.PathLike[str]) -> None:
@@ -201,8 +214,7 @@ class Run:
 
     def to_xarray(self) -> Any:
         """An ``xarray.Dataset`` of the arrays, by time, body and axis, with their units. Takes xarray."""
-        import xarray
-
+        xarray = needed("xarray")
         axis, frame = ("t", "axis"), ("t", "body", "axis")
         arrays: dict[str, tuple[tuple[str, ...], Array, str]] = {
             "attitude": (("t", "body", "row", "column"), self.attitude, "1"),
@@ -249,17 +261,17 @@ class Run:
         return picture
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """Draw angular velocities, and what the motion keeps, over time; to a file where a path is given.
+        """Draw the sizes of angular velocities, and what the motion keeps, over time; to a file where a path is given.
+
+        A point for each frame: give ``t`` as an array where steps are long.
 
         Returns the ``matplotlib`` figure. Takes matplotlib.
         """
-        from matplotlib.figure import Figure
-
-        figure = Figure(figsize=(8, 6), layout="constrained")
+        figure = needed("matplotlib.figure").Figure(figsize=(8, 6), layout="constrained")
         above, below = figure.subplots(2, 1, sharex=True)
         for k, body in enumerate(self.scene.bodies):
             above.plot(self.t, np.linalg.norm(self.angular_velocity[:, k], axis=-1), label=body)
-        above.set_ylabel("angular velocity, rad/s")
+        above.set_ylabel("size of angular velocity, rad/s")
         above.legend()
         balance = self.energy - self.work
         below.plot(self.t, balance - balance[0], label="energy less work, J")

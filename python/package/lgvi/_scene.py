@@ -44,7 +44,10 @@ class Scene:
         Raises ``OSError`` where the file cannot be read, and ``lgvi.SceneError`` (a ``ValueError``) where it is
         wrong: ``FILE:LINE:COLUMN: KEY: what is wrong; expected ...``.
         """
-        return cls._of(NativeScene.load(os.fspath(path)))
+        file = os.fspath(path)
+        if "\n" in file:
+            raise ValueError("path is a text of several lines; expected the name of a file, or use Scene.parse(text)")
+        return cls._of(NativeScene.load(file))
 
     @classmethod
     def parse(cls, text: str, folder: str | os.PathLike[str] = ".") -> Scene:
@@ -60,6 +63,8 @@ class Scene:
         """
         if not isinstance(text, str):
             raise TypeError(f"text is {type(text).__name__}; expected the text of a scene, or use Scene.load(path)")
+        if text.endswith(".toml"):
+            raise ValueError(f"text is {text!r}; expected the text of a scene, or use Scene.load(path)")
         return cls._of(NativeScene.parse(text, os.fspath(Path(folder) / "scene.toml")))
 
     @classmethod

@@ -42,8 +42,10 @@ class Sensitivity:
     The state varies as (eta, mu): the configuration as g exp(eta), the momentum by addition. With d the dimension
     of the group, coordinates are those of xi, one array after the other.
 
-    state       (2d, 2d)  of (eta, mu) at the end by (eta, mu) at the start: it is symplectic, as there is no force
-    parameters  (2d, P)   of (eta, mu) at the end by the parameters, at a fixed momentum at the start
+    state       (2d, 2d)  of (eta, mu) at the end by (eta, mu) at the start. Without a force it is symplectic in the form
+                          w(a, b) = mu_b.eta_a - mu_a.eta_b + mu.[eta_a, eta_b], with mu of the state where it is
+    parameters  (2d, P)   of (eta, mu) at the end by the parameters, at a fixed momentum at the start. At a fixed
+                          velocity add state[:, d:] @ dmu/dp, with mu = dL/dxi at the start
     names       of the parameters
     g, mu       the state at the end
     """
@@ -75,6 +77,8 @@ class System:
     >>> motion = top.simulate(10, lgvi.SO3.exp([0.3, 0, 0]), [0, 0, 10], "gauss-4", step=0.1)
     >>> motion.energy - motion.energy[0]
 
+    A system takes a method and its step; accuracy and ensembles are for scenes. A sweep is a loop over ``replace``.
+
     Raises ``lgvi.TraceError`` (a ``TypeError``) with the line of the function that cannot be recorded.
     A system can be pickled.
     """
@@ -94,7 +98,7 @@ class System:
 
         def arguments(numbers: Any) -> tuple[Any, ...]:
             at = 1 + len(values)
-            p = dict(zip(names, numbers[1:at])) if is_mapping else numbers[1:at]
+            p = _Parameters(zip(names, numbers[1:at])) if is_mapping else numbers[1:at]
             g, xi = layout.element(numbers[at : at + layout.numbers]), layout.velocity(numbers[at + layout.numbers :])
             return (numbers[0], g, xi) if parameters is None else (numbers[0], g, xi, p)
 
@@ -212,7 +216,8 @@ class System:
         """Try the laws that the recorded system and its methods must keep, at one state, and print what was found.
 
         Derivatives against dual numbers and differences, an inertia in every direction, symplecticity,
-        reversibility, the order of the steps. The force takes part in the order only. ``step`` is in seconds.
+        reversibility, and the order of the steps by the midpoint rule; symplecticity by gauss-4 too. The force takes
+        part in the order only. ``step`` is in seconds.
 
         Returns whether all hold. A law that fails tells formula, numbers and tolerance.
         """
@@ -240,6 +245,13 @@ class System:
 
     def __repr__(self) -> str:
         return f"<lgvi.System on {self._group!r}: {self.instructions} instructions>"
+
+
+class _Parameters(dict[str, Any]):
+    """The parameters by their names."""
+
+    def __missing__(self, name: str) -> Any:
+        raise KeyError(f"no parameter is called {name!r}; expected one of {', '.join(self)}")
 
 
 def _restored(group: Group, formulas: tuple[Any, Any], names: list[str], values: list[float], named: bool) -> System:

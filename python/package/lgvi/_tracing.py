@@ -27,9 +27,9 @@ def refused(what: str, error: BaseException | None = None) -> TraceError:
         places = [(frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(error.__traceback__)][::-1]
     theirs = (place for place in places if not place[0].startswith((_OURS, _NUMPY, "<")))
     file, line = next(theirs, ("?", 0))
+    choice = "; choose between two by lgvi.where(a < b, x, y)" if "compare" in what else ""
     return TraceError(
-        f"{file}:{line}: {what}. The function is recorded once, over numbers that have no value yet; "
-        "choose between two by lgvi.where(a < b, x, y)",
+        f"{file}:{line}: {what}. The function is recorded once, over numbers that have no value yet{choice}",
         file=file,
         line=line,
     )
@@ -68,7 +68,7 @@ def record(
                 error,
             ) from error
         if "dtype('O')" in str(error):
-            raise refused(f"this function of numpy takes floats alone ({error})", error) from error
+            raise refused(f"this function of numpy takes floats alone ({error}): write it out in elements", error) from error
         raise
 
 
