@@ -12,7 +12,7 @@ use core::ops::{
 use num_traits::{One, Zero};
 use pulp::{Simd, WithSimd, bytemuck};
 
-use super::PerLane;
+use super::per_lane::PerLane;
 use crate::numeric::larger;
 use crate::{Batch, DualNumber, Scalar};
 
