@@ -15,10 +15,27 @@ pub enum DriveKind {
         /// The body that hangs on it.
         body: usize,
     },
-    /// The drag of all bodies.
+    /// A load, of all bodies that have it.
+    Load(BodyLoad),
+}
+
+/// What acts on bodies beside weight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyLoad {
+    /// Drag, linear and quadratic.
     Drag,
-    /// The thrust of all bodies.
+    /// Thrust, constant in the body's frame or as told.
     Thrust,
+}
+
+impl BodyLoad {
+    /// Its name, as in `drag_work`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Drag => "drag",
+            Self::Thrust => "thrust",
+        }
+    }
 }
 
 /// What the drive of a joint, or of the place of the first one, or a load, has done along a motion.
@@ -32,7 +49,7 @@ pub struct Drive {
     pub kind: DriveKind,
     /// $\int \lambda \cdot a\,dt$, with that of a place, J.
     pub work: f64,
-    /// $\int \lambda\,dt$, N m s in the reference frame: over a time, it is the mean torque on the body; zero of drag and thrust.
+    /// $\int \lambda\,dt$, N m s in the reference frame: over a time, it is the mean torque on the body; zero of loads on bodies.
     pub impulse: Vec3,
 }
 
@@ -89,8 +106,8 @@ impl ArticulatedBody {
         };
         let bodies = (0..self.nodes.len()).filter(driven);
         let joints = bodies.map(|body| DriveKind::Joint { body });
-        let drag = (!forces.drags.is_empty()).then_some(DriveKind::Drag);
-        let thrust = (!forces.thrusts.is_empty()).then_some(DriveKind::Thrust);
+        let drag = (!forces.drags.is_empty()).then_some(DriveKind::Load(BodyLoad::Drag));
+        let thrust = (!forces.thrusts.is_empty()).then_some(DriveKind::Load(BodyLoad::Thrust));
         let idle = |kind| Drive {
             kind,
             work: 0.0,
@@ -145,8 +162,12 @@ impl ArticulatedBody {
         let twist = |i: usize| elimination.twist(i);
         let forces = &self.loads.forces;
         let port = |drive: &Drive| match drive.kind {
-            DriveKind::Drag => [Port::on_bodies(forces.drag(twist), twist), Port::unused()],
-            DriveKind::Thrust => [Port::on_bodies(forces.thrust(*t), twist), Port::unused()],
+            DriveKind::Load(BodyLoad::Drag) => {
+                [Port::on_bodies(forces.drag(twist), twist), Port::unused()]
+            }
+            DriveKind::Load(BodyLoad::Thrust) => {
+                [Port::on_bodies(forces.thrust(*t), twist), Port::unused()]
+            }
             DriveKind::Joint { body: i } => {
                 let turn = match (self.is_turned(i), forces.in_joint(i)) {
                     (true, _) => Port {

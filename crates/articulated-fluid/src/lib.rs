@@ -114,7 +114,7 @@ mod views;
 pub use account::{Account, Reduction};
 pub use conserved::Conserved;
 pub use discrete::StepWorkspace;
-pub use drive::{Drive, DriveKind};
+pub use drive::{BodyLoad, Drive, DriveKind};
 pub use ellipsoid::{Ellipsoid, EllipsoidError};
 pub use error::ModelError;
 pub use joints::{Hinge, JointKind};

@@ -107,8 +107,7 @@ impl Drives {
         let report = |(drive, largest): (&Drive, &[f64; 2])| DriveReport {
             name: match drive.kind {
                 DriveKind::Joint { .. } => joints.next().cloned().unwrap_or_default(),
-                DriveKind::Drag => "drag".to_owned(),
-                DriveKind::Thrust => "thrust".to_owned(),
+                DriveKind::Load(load) => load.name().to_owned(),
             },
             work_joules: drive.work,
             power_max_watts: largest[0],

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use articulated_fluid::{DriveKind, Scene};
+use articulated_fluid::{BodyLoad, DriveKind, Scene};
 use lie::{SO3, Vec3};
 
 use crate::frame::{DriveSample, Frame};
@@ -39,7 +39,7 @@ enum Read {
     /// Of the drive with this number, likewise.
     Drive(fn(&DriveSample, &mut [f64])),
     /// The work of all loads of a kind, where there are some.
-    Work(DriveKind),
+    Work(BodyLoad),
 }
 
 /// The bodies of a scene, the free hinges and the joints with drives, by their names, and which loads there are.
@@ -47,7 +47,7 @@ struct Names {
     bodies: Vec<String>,
     hinges: Vec<String>,
     drives: Vec<String>,
-    loads: Vec<DriveKind>,
+    loads: Vec<BodyLoad>,
 }
 
 type Labels = &'static [&'static str];
@@ -112,8 +112,8 @@ pub const COLUMNS: &[Column] = &[
     extra(drive(&["tx", "ty", "tz"], "its mean torque on the child since the row before, in the reference frame, N m", |drive, to| {
         to.copy_from_slice(&drive.torque.0);
     })),
-    column(&["drag_work"], "work of all drag since the start, J, where there is some", Read::Work(DriveKind::Drag)),
-    column(&["thrust_work"], "work of all thrust since the start, J, where there is some", Read::Work(DriveKind::Thrust)),
+    column(&["drag_work"], "work of all drag since the start, J, where there is some", Read::Work(BodyLoad::Drag)),
+    column(&["thrust_work"], "work of all thrust since the start, J, where there is some", Read::Work(BodyLoad::Thrust)),
     whole(&["energy"], "of bodies and fluid, kinetic and potential, J", |seen, to| to.fill(seen.frame.sample.energy)),
     whole(&["px", "py", "pz"], "linear momentum from the velocities, in the reference frame, kg m/s", |seen, to| {
         to.copy_from_slice(&seen.frame.sample.linear.0);
@@ -180,7 +180,7 @@ fn columns(
     groups.flat_map(move |group| {
         let times = match group[0].read {
             Read::Whole(_) => 1,
-            Read::Work(kind) => usize::from(names.loads.contains(&kind)),
+            Read::Work(load) => usize::from(names.loads.contains(&load)),
             _ => names.of_column(group[0]).len(),
         };
         (0..times).flat_map(move |i| group.iter().map(move |column| (*column, i)))
@@ -253,8 +253,9 @@ impl Rows {
             match column.read {
                 Read::Whole(read) => read(&seen, to),
                 Read::Body(read) | Read::Hinge(read) => read(&seen, i, to),
-                Read::Work(kind) => {
-                    let load = frame.drives.iter().find(|drive| drive.kind == kind);
+                Read::Work(load) => {
+                    let of_load = |drive: &&DriveSample| drive.kind == DriveKind::Load(load);
+                    let load = frame.drives.iter().find(of_load);
                     to.fill(load.map_or(f64::NAN, |load| load.work));
                 }
                 Read::Drive(read) => match frame.drives.get(i) {

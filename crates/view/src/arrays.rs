@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use articulated_fluid::{DriveKind, Scene};
+use articulated_fluid::Scene;
 use lie::Vec3;
 use sim::Frame;
 
@@ -100,10 +100,7 @@ pub struct Arrays {
 impl Arrays {
     /// Arrays without rows for the bodies of a scene.
     pub fn new(scene: &Scene) -> Self {
-        let loads = scene.loads_on_bodies().map(|kind| match kind {
-            DriveKind::Drag => "drag",
-            _ => "thrust",
-        });
+        let loads = scene.loads_on_bodies().map(|load| -> &str { load.name() });
         let own = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
         let bodies = scene.bodies.iter().map(|body| &body.name[..]).collect();
         Self {

@@ -146,8 +146,7 @@ fn drives(scene: &Scene, motions: &[Motion]) -> Vec<(String, usize)> {
     let name = |(k, kind): (usize, DriveKind)| {
         let name = match kind {
             DriveKind::Joint { .. } => joints.next().unwrap_or_default(),
-            DriveKind::Drag => "drag",
-            DriveKind::Thrust => "thrust",
+            DriveKind::Load(load) => load.name(),
         };
         (name.to_owned(), k)
     };

@@ -175,7 +175,7 @@ class Run:
     def work(self) -> Array:
         """Work of all that does some since the start, J, (T,): the energy less this is what a motion keeps."""
         works = [drive.work for drive in self.drives.values()]
-        works += [self.column(name) for name in ("drag_work", "thrust_work") if name in self._place]
+        works += [self.column(name) for name in self.names if name.endswith("_work")]
         return np.sum(works, axis=0) if works else np.zeros(len(self))
 
     @property

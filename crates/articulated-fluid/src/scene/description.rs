@@ -4,7 +4,7 @@ use lie::{Mat3, Vec3};
 
 use super::mobility::Mobility;
 use super::note::Note;
-use crate::drive::DriveKind;
+use crate::drive::BodyLoad;
 use crate::ellipsoid::Ellipsoid;
 use crate::loads::{Drag, Thrust};
 use crate::motion::{Law, Sinusoid};
@@ -236,15 +236,15 @@ impl Scene {
     }
 
     /// What acts on bodies beside weight: drag, thrust.
-    pub fn loads_on_bodies(&self) -> impl Iterator<Item = DriveKind> {
+    pub fn loads_on_bodies(&self) -> impl Iterator<Item = BodyLoad> {
         let acts = |drag: &Drag| drag.acts();
         let drag = self
             .bodies
             .iter()
             .any(|body| body.drag.as_ref().is_some_and(acts));
         let thrust = self.bodies.iter().any(|body| body.thrust.is_some());
-        let drag = drag.then_some(DriveKind::Drag);
-        drag.into_iter().chain(thrust.then_some(DriveKind::Thrust))
+        let drag = drag.then_some(BodyLoad::Drag);
+        drag.into_iter().chain(thrust.then_some(BodyLoad::Thrust))
     }
 
     /// The bodies on joints in their order, with the joint's name and what it leaves free.
