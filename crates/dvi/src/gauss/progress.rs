@@ -14,8 +14,10 @@ const KNOWN_BETTER: f64 = 0.01;
 pub(super) const STAYS: f64 = 0.5;
 /// Noise is measured only below this change: above, the iteration diverges.
 pub(super) const MEASURES_BELOW: f64 = 1e-4;
-/// Corrections of $\pi_0$ at rounding, each of which begins anew, after which rates and $\pi_0$ go round in a circle.
+/// Corrections of $\pi_0$ at rounding, each of which begins anew, after which rates and $\pi_0$ go round in a circle: from one to the next no change
+/// has become smaller than this part.
 const CORRECTIONS: u32 = 3;
+const CIRCLES: f64 = 0.9;
 
 /// Whether it is time to look at $\pi_0$.
 pub(super) fn looks_at_end(sweeps: u32) -> bool {
@@ -27,8 +29,10 @@ pub(super) struct Progress {
     changes: Changes,
     /// The last mismatch of $\pi_0$ that rates had settled for.
     mismatch: f64,
-    /// Corrections of $\pi_0$ that were made when the changes were rounding.
+    /// Corrections of $\pi_0$ in a row that were made when the changes were rounding, and no smaller than before the last one.
     corrections: u32,
+    /// The smallest change before the last correction.
+    best: f64,
 }
 
 /// What a look at $\pi_0$ says.
@@ -45,6 +49,7 @@ impl Default for Progress {
             changes: Changes::default(),
             mismatch: f64::INFINITY,
             corrections: 0,
+            best: f64::INFINITY,
         }
     }
 }
@@ -73,7 +78,9 @@ impl Progress {
         }
         let known = mismatch > enough && mismatch > KNOWN_BETTER * self.changes.now;
         if settled || known {
-            self.corrections += u32::from(self.changes.now < ROUNDING);
+            let stays = self.changes.now < ROUNDING && self.changes.best > CIRCLES * self.best;
+            self.corrections = if stays { self.corrections + 1 } else { 0 };
+            self.best = self.best.min(self.changes.best);
             self.changes = Changes::default();
             return AtEnd::Corrects;
         }
@@ -152,6 +159,25 @@ mod tests {
             let mismatch = mismatches[at / 4 % mismatches.len()];
             looks && matches!(progress.at_end((settled, mismatch), 0.0), AtEnd::Solved)
         })
+    }
+
+    #[test]
+    fn what_still_contracts_is_no_circle() {
+        for contraction in [0.3, 0.7, 0.9] {
+            let (mut progress, mut change) = (Progress::default(), 1e-11);
+            for sweep in 1..1000 {
+                change *= contraction;
+                progress.push(change);
+                let settled = progress.is_settled(0.0);
+                if settled {
+                    break;
+                }
+                if looks_at_end(sweep) {
+                    progress.at_end((settled, change), 0.0);
+                }
+            }
+            assert!(change < EXHAUSTED[1], "{contraction}: {change:e}");
+        }
     }
 
     #[test]
