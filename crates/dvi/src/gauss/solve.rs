@@ -226,10 +226,15 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
             }
             if progress.diverges() {
                 report.residual = progress.best();
-                break;
+                return Ok(Ended::Slow(report));
             }
         }
-        Ok(Ended::Slow(report))
+        // There is no more to be had than rounding.
+        let rounding = progress.circles() && report.residual < ROUNDING;
+        Ok(match rounding {
+            true => Ended::Solved(report),
+            false => Ended::Slow(report),
+        })
     }
 
     /// Measures what rounding makes of a sweep.

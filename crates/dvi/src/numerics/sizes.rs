@@ -343,38 +343,53 @@ fn largest(numbers: &[f64]) -> f64 {
     max + poison
 }
 
-/// Moves numbers so little that they cannot be told from what they were.
+/// Moves numbers so little that they cannot be told from what they were: by two units of the last place, up or down.
 ///
-/// At odd times by two units of the last place, and one of its digits says whether a number goes up. But then numbers that are equal
-/// move together, and what they do cancels. So at even times each goes another way [further](Self::times): this shows what the arguments' rounding does,
-/// and the other what that of the evaluation does.
+/// Every other time one of its digits says whether a number goes up, else its place in the row of numbers: numbers that are equal
+/// would else move together, and what they do cancel.
+#[derive(Clone)]
 pub(crate) struct Shaker {
     time: u32,
+    is_far: bool,
     next: Cell<u32>,
 }
 
 impl Shaker {
     pub(crate) fn new(time: u32) -> Self {
-        let next = Cell::new(time);
-        Self { time, next }
+        Self {
+            time,
+            is_far: false,
+            next: Cell::new(time),
+        }
+    }
+
+    /// One that moves each number its own way, [further](Self::times): what a few of them do never cancels. It tells of the arguments' rounding,
+    /// and the other ones of the evaluation's too.
+    pub(crate) fn far(time: u32) -> Self {
+        let is_far = true;
+        Self {
+            is_far,
+            ..Self::new(time)
+        }
     }
 
     /// How many times two units of the last place the numbers move, on average.
     pub(crate) fn times(&self) -> f64 {
-        match self.time.is_multiple_of(2) {
-            true => FAR,
-            false => 1.0,
-        }
+        if self.is_far { FAR } else { 1.0 }
     }
 
     /// The next number, moved.
     #[inline]
     pub(crate) fn shake(&self, x: f64) -> f64 {
         let place = self.next.replace(self.next.get().wrapping_add(1));
-        let by = match self.time.is_multiple_of(2) {
-            true => 2.0 * FAR * spread(place),
-            false if x.to_bits() >> (self.time / 2 % DIGITS) & 1 == 0 => 1.0,
-            false => -1.0,
+        let up = match self.time.is_multiple_of(2) {
+            true => place.wrapping_mul(0x9e37_79b9) >> 31 == 0,
+            false => x.to_bits() >> (self.time / 2 % DIGITS) & 1 == 0,
+        };
+        let by = match (self.is_far, up) {
+            (true, _) => 2.0 * FAR * spread(place),
+            (false, true) => 1.0,
+            (false, false) => -1.0,
         };
         x + by * 2.0 * f64::EPSILON * x
     }
@@ -389,7 +404,6 @@ fn spread(place: u32) -> f64 {
 }
 
 /// Shakes every coordinate.
-pub(crate) fn shake<V: VectorSpace<Scalar = f64>>(x: &mut V, time: u32) {
-    let shaker = Shaker::new(time);
+pub(crate) fn shake<V: VectorSpace<Scalar = f64>>(x: &mut V, shaker: &Shaker) {
     (0..x.dim()).for_each(|i| x.set(i, shaker.shake(x.get(i))));
 }

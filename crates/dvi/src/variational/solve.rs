@@ -446,14 +446,19 @@ impl<L: DiscreteLagrangian> Work<L> {
             residual: self.balance.residual.clone(),
         };
         let mut other = self.shaken.take().unwrap_or_else(storage);
-        let shaker = Shaker::new(time);
+        // The last one shows what cancels in the others.
+        let shaker = match time < MEASUREMENTS {
+            true => Shaker::new(time),
+            false => Shaker::far(time),
+        };
+        let fresh = shaker.clone();
         L::Group::convert_into::<f64, f64>(&state.g, |x| shaker.shake(x), &mut other.state.g);
         other.state.t = state.t;
         other.state.mu.copy_from(&state.mu);
         other.c.copy_from(&self.c);
         other.residual.copy_from(&self.balance.residual);
-        shake(&mut other.state.mu, time);
-        shake(&mut self.c, time);
+        shake(&mut other.state.mu, &fresh.clone());
+        shake(&mut self.c, &fresh);
         self.evaluate(lagrangian, &other.state, h);
         other.residual.add_scaled(-1.0, &self.balance.residual);
         self.sizes.raise_noise(&other.residual, shaker.times());
