@@ -7,52 +7,23 @@ use std::time::Instant;
 
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use dvi::{
-    Context, ContinuousSystem, Derivatives, DiscreteLagrangian, DualSystem, Gauss, Integrator,
-    Lagrangian, Means, Quadrature, State, System, Variational,
+    ContinuousSystem, DualSystem, Gauss, Integrator, Lagrangian, Means, Quadrature, State,
+    Variational,
 };
 use lgvi::{articulated_fluid, dvi, lie};
-use lie::{Over, RealGroup, Scalar, VectorSpace};
+use lie::{RealGroup, VectorSpace};
 
+#[path = "../../crates/dvi/tests/recorded/by_jets.rs"]
+mod by_jets;
 mod dumbbells;
 mod pendulum;
 mod top;
 #[path = "../../tests/fish/value_only.rs"]
 mod value_only;
 
+use by_jets::ByJets;
 use top::Top;
 use value_only::ValueOnly;
-
-/// A discrete Lagrangian by dual numbers, whether or not it can be recorded.
-struct ByJets<L>(L);
-
-impl<L: DiscreteLagrangian> System for ByJets<L> {
-    type Group = L::Group;
-}
-
-impl<L: DiscreteLagrangian> DiscreteLagrangian for ByJets<L> {
-    type Workspace<S: Scalar> = ();
-
-    fn value<S: Scalar>(
-        &self,
-        at: Context<S>,
-        g: &Over<L::Group, S>,
-        f: &Over<L::Group, S>,
-        h: S,
-    ) -> S {
-        self.0.value(at, g, f, h)
-    }
-    fn derivatives<S: Scalar>(
-        &self,
-        at: Context<S>,
-        g: &Over<L::Group, S>,
-        f: &Over<L::Group, S>,
-        h: S,
-        (): &mut (),
-        out: &mut Derivatives<L::Group, S>,
-    ) {
-        out.by_jets(&self.0, at, g, f, h);
-    }
-}
 
 /// What a step takes, microseconds, the best of some runs; and where the first steps lead to.
 struct Timed<G: RealGroup> {

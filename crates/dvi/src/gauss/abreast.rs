@@ -238,8 +238,14 @@ impl<C: ContinuousSystem, S: PerLane> InLanes<C, S> {
         lane.is_solved
     }
 
-    /// Takes the step of a lane; whether it could.
-    fn accept(&mut self, i: usize, system: &C, state: &mut State<C::Group>, h: f64) -> bool {
+    /// Takes the step of a lane; `None` where it cannot be taken.
+    fn accept(
+        &mut self,
+        i: usize,
+        system: &C,
+        state: &mut State<C::Group>,
+        h: f64,
+    ) -> Option<StepReport> {
         let lane = &mut self.lanes[i];
         let End { f, impulse, mu, .. } = &self.sweep.end;
         C::Group::convert_into::<S, f64>(f, |x| x.lanes()[i], &mut lane.f);
@@ -248,15 +254,8 @@ impl<C: ContinuousSystem, S: PerLane> InLanes<C, S> {
             lane.impulse.set(d, impulse.get(d).lanes()[i]);
         }
         let end = (&lane.f, &lane.impulse, &lane.mu);
-        let after = lane.update.advance(state, h, end);
-        match after.filter(|after| system.is_defined(after.t, &after.g)) {
-            Some(after) => state.copy_from(after),
-            None => {
-                lane.update.forget();
-                return false;
-            }
-        }
-        true
+        state.copy_from(lane.update.advance(system, state, h, end)?);
+        Some(lane.report)
     }
 }
 
@@ -282,17 +281,13 @@ impl<C: ContinuousSystem, S: PerLane> Abreast<C> for InLanes<C, S> {
         self.iterate(method.0, (h, tolerance), reports);
         let stages = method.1.nodes.len() as u32;
         for (i, (state, report)) in states.iter_mut().zip(reports).enumerate() {
-            if report.is_none() {
-                continue;
+            if report.take().is_some() && self.lanes[i].is_solved {
+                let accepted = self.accept(i, method.0, state, h);
+                *report = accepted.map(|found| StepReport {
+                    evaluations: stages * found.iterations,
+                    ..found
+                });
             }
-            let solved = self.lanes[i].is_solved && self.accept(i, method.0, state, h);
-            let found = self.lanes[i].report;
-            let evaluations = stages * found.iterations;
-            let found = StepReport {
-                evaluations,
-                ..found
-            };
-            *report = solved.then_some(found);
         }
         for (d, (drift, start)) in self.drift.iter_mut().zip(&self.start).enumerate() {
             *drift = *start - self.mu.get(d);
@@ -352,14 +347,16 @@ pub(super) fn abreast<C: ContinuousSystem + 'static>(
     }
     if C::IS_RECORDED {
         let recorded = TracedSystem::from(system.recorded(first.t, &first.g).ok()?);
-        let new = New::of((&recorded, tableau), first);
+        let method = (&recorded, tableau);
+        let new = New { method, first };
         let lanes = run_per_lane(instructions, new);
         return Some(Box::new(OnRecording { recorded, lanes }));
     }
     let by_duals = matches!(system.means(first.t, &first.g), Means::DualNumbers { .. });
     match const { C::INLINE && !C::IS_RECORDED } {
         true if !by_duals => {
-            let new = New::of((system, tableau), first);
+            let method = (system, tableau);
+            let new = New { method, first };
             Some(run_per_lane(instructions, new))
         }
         _ => None,
@@ -379,12 +376,6 @@ impl PerLaneJob for CountLanes {
 struct New<'a, C: ContinuousSystem> {
     method: Method<'a, C>,
     first: &'a State<C::Group>,
-}
-
-impl<'a, C: ContinuousSystem> New<'a, C> {
-    fn of(method: Method<'a, C>, first: &'a State<C::Group>) -> Self {
-        Self { method, first }
-    }
 }
 
 impl<C: ContinuousSystem + 'static> PerLaneJob for New<'_, C> {

@@ -1,20 +1,17 @@
 //! Many trajectories of one system at once.
 
-use core::mem;
 use std::thread;
 
 use lie::lanes::InstructionSet;
 use lie::{LieGroup, VectorSpace};
 
 use super::abreast::{Abreast, abreast};
+use super::solve::LONG_STEPS;
 use super::solver::Solver;
 use super::tableau::Tableau;
 use super::work::Method;
 use crate::step::{check_momentum, check_step};
 use crate::{ContinuousSystem, State, StepError, StepReport};
-
-/// Steps that a trajectory takes by itself before it is tried beside the others again.
-const STEPS_ALONE: u32 = 16;
 
 /// How one trajectory of an ensemble got on: the report of its last step, or the step that it could not take.
 type Outcome = Result<StepReport, StepError>;
@@ -167,14 +164,21 @@ impl<C: ContinuousSystem + Sync + 'static> Ensemble<C> {
     /// Makes the rows, where there are none; how many trajectories each takes.
     fn prepare(&mut self, states: &[State<C::Group>]) -> usize {
         let count = states.len();
-        let method = (&self.system, Tableau::gauss(self.settings.stages));
-        let row = |()| Row::new(self.settings.instructions_for(count), method, states);
         if self.rows.is_empty() {
             self.trajectories = count;
-            self.rows.push(row(()));
-            let width = self.rows[0].members.len();
-            self.rows
-                .extend((1..count.div_ceil(width)).map(|_| row(())));
+            let system = &self.system;
+            // A start without sense is no pattern for the others.
+            let sound = |state: &&State<C::Group>| {
+                is_sound(system, state) && system.without_inertia(state.t, &state.g).is_none()
+            };
+            let first = states.iter().find(sound);
+            let instructions = self.settings.instructions_for(count);
+            let method = (system, Tableau::gauss(self.settings.stages));
+            let row = || Row::new(first.and_then(|first| abreast(instructions, method, first)));
+            let lead = row();
+            let others = count.div_ceil(lead.members.len()) - 1;
+            self.rows.push(lead);
+            self.rows.extend((0..others).map(|_| row()));
         }
         self.rows[0].members.len()
     }
@@ -216,14 +220,7 @@ struct Row<C: ContinuousSystem> {
 }
 
 impl<C: ContinuousSystem + 'static> Row<C> {
-    /// For states like the first one that makes sense.
-    fn new(instructions: InstructionSet, method: Method<C>, states: &[State<C::Group>]) -> Self {
-        let system = method.0;
-        let sound = |state: &&State<C::Group>| {
-            is_sound(system, state) && system.without_inertia(state.t, &state.g).is_none()
-        };
-        let first = states.iter().find(sound);
-        let lanes = first.and_then(|first| abreast(instructions, method, first));
+    fn new(lanes: Option<Box<dyn Abreast<C>>>) -> Self {
         let width = lanes.as_ref().map_or(1, |lanes| lanes.lanes());
         Self {
             lanes,
@@ -251,7 +248,13 @@ impl<C: ContinuousSystem + 'static> Row<C> {
                 let member = &mut self.members[i];
                 outcomes[i] = match self.reports[i] {
                     Some(report) => Ok(report),
-                    None => member.step_alone((method, settings, h), state),
+                    None => {
+                        // A lane guesses by its last steps, and those of one that comes back were taken elsewhere.
+                        if let (1, Some(lanes)) = (member.alone, &mut self.lanes) {
+                            lanes.forget();
+                        }
+                        member.step_alone((method, settings, h), state)
+                    }
                 };
                 member.steps += u64::from(outcomes[i].is_ok());
             }
@@ -271,35 +274,17 @@ impl<C: ContinuousSystem + 'static> Row<C> {
             reports,
         } = self;
         reports.clear();
-        reports.extend(
-            outcomes
-                .iter()
-                .zip(members.iter())
-                .map(|(outcome, member)| {
-                    let joins = outcome.is_ok() && member.fits && member.alone == 0;
-                    joins.then(StepReport::default)
-                }),
-        );
-        let Some(lanes) = lanes
-            .as_mut()
-            .filter(|_| reports.iter().any(Option::is_some))
-        else {
+        let each = members.iter().zip(outcomes);
+        let joins = each.map(|(member, outcome)| outcome.is_ok() && member.joins());
+        reports.extend(joins.map(|joins| joins.then(StepReport::default)));
+        let any = reports.iter().any(Option::is_some);
+        let Some(lanes) = lanes.as_mut().filter(|_| any) else {
             return;
         };
-        // A lane guesses by what its last steps were, and those of who returns were taken elsewhere.
-        if members
-            .iter_mut()
-            .any(|member| mem::take(&mut member.returns))
-        {
-            lanes.forget();
-        }
-        for (member, report) in members.iter_mut().zip(&*reports) {
-            member.joined = report.is_some();
-        }
         lanes.step(method, states, (h, settings.tolerance), reports);
-        for (member, report) in members.iter_mut().zip(&*reports) {
-            if member.joined && report.is_none() {
-                member.alone = STEPS_ALONE;
+        for ((member, outcome), report) in members.iter_mut().zip(outcomes).zip(&*reports) {
+            if outcome.is_ok() && member.joins() && report.is_none() {
+                member.alone = LONG_STEPS;
             }
         }
     }
@@ -311,11 +296,8 @@ struct Member<C: ContinuousSystem> {
     solver: Option<Solver<C>>,
     /// Whether its state is one that can be stepped beside the others'.
     fits: bool,
-    /// Whether it was in the last step.
-    joined: bool,
-    /// Steps that it still takes by itself, and whether these have just come to an end.
+    /// Steps that it still takes by itself.
     alone: u32,
-    returns: bool,
     steps: u64,
 }
 
@@ -324,11 +306,14 @@ impl<C: ContinuousSystem + 'static> Member<C> {
         Self {
             solver: None,
             fits: false,
-            joined: false,
             alone: 0,
-            returns: false,
             steps: 0,
         }
+    }
+
+    /// Whether it is stepped beside the others.
+    fn joins(&self) -> bool {
+        self.fits && self.alone == 0
     }
 
     fn step_alone(
@@ -336,7 +321,6 @@ impl<C: ContinuousSystem + 'static> Member<C> {
         ((system, _), settings, h): (Method<C>, Settings, f64),
         state: &mut State<C::Group>,
     ) -> Outcome {
-        self.returns = self.alone == 1;
         self.alone = self.alone.saturating_sub(1);
         let solver = self.solver.get_or_insert_with(|| settings.solver());
         solver.steps = self.steps;

@@ -82,8 +82,8 @@ impl Progress {
         }
         let known = mismatch > enough && mismatch > KNOWN_BETTER * self.changes.now;
         if settled || known {
-            let stays = self.changes.now < ROUNDING && self.changes.best > CIRCLES * self.best;
-            self.corrections = if stays { self.corrections + 1 } else { 0 };
+            let circles = self.changes.now < ROUNDING && self.changes.best > CIRCLES * self.best;
+            self.corrections = if circles { self.corrections + 1 } else { 0 };
             self.best = self.best.min(self.changes.best);
             self.changes = Changes::default();
             return AtEnd::Corrects;

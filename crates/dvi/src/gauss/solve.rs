@@ -21,7 +21,7 @@ const AT_ROOT: f64 = 1e-3;
 /// The shortest part of a correction that is tried where the whole makes the change grow.
 const SHORTEST_CORRECTION: f64 = 1e-2;
 /// Steps solved by Newton's method before the plain iteration is tried again.
-const LONG_STEPS: u32 = 16;
+pub(super) const LONG_STEPS: u32 = 16;
 /// Unknowns beyond which Newton's method, whose matrix is dense, costs more than shorter steps.
 const NEWTON_LIMIT: usize = 1000;
 /// Unknowns beyond which one step by Newton's method costs more than trying the plain iteration again.

@@ -103,11 +103,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>, R: Retraction> Stepper<C> for In
             ..
         } = &mut self.work;
         let End { f, impulse, mu, .. } = &sweep.end;
-        let after = update.advance(state, h, (f, impulse, mu))?;
-        if !system.is_defined(after.t, &after.g) {
-            update.forget();
-            return None;
-        }
+        let after = update.advance(system, state, h, (f, impulse, mu))?;
         state.mu.write(drift);
         for (drift, start) in drift.iter_mut().zip(start) {
             *drift = *start - *drift;

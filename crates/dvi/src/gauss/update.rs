@@ -2,8 +2,8 @@
 
 use lie::{RealGroup, VectorSpace};
 
-use crate::State;
 use crate::numerics::sizes::Kinds;
+use crate::{ContinuousSystem, State};
 
 /// Steps between corrections of the rounding that moves the configuration off its group.
 ///
@@ -68,9 +68,10 @@ impl<G: RealGroup> Update<G> {
         self.known = false;
     }
 
-    /// The state after the displacement `f` and the impulse, the latter in the frame of the step's start, or with the momentum `transported`; `None` where a number is not finite.
-    pub(super) fn advance(
+    /// The state after the displacement `f` and the impulse, the latter in the frame of the step's start, or with the momentum `transported`; `None` where a number is not finite, or where the system is not defined.
+    pub(super) fn advance<C: ContinuousSystem<Group = G>>(
         &mut self,
+        system: &C,
         state: &State<G>,
         h: f64,
         (f, impulse, transported): (&G, &G::Dual, &G::Dual),
@@ -102,7 +103,9 @@ impl<G: RealGroup> Update<G> {
         if self.far {
             self.after.mu.copy_from(transported);
         }
-        self.known = self.after.g.is_finite() && self.after.mu.max_magnitude().is_finite();
+        let State { t, g, mu } = &self.after;
+        let finite = g.is_finite() && mu.max_magnitude().is_finite();
+        self.known = finite && system.is_defined(*t, g);
         self.known.then_some(&self.after)
     }
 

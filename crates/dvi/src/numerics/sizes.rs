@@ -347,7 +347,6 @@ fn largest(numbers: &[f64]) -> f64 {
 ///
 /// Every other time one of its digits says whether a number goes up, else its place in the row of numbers: numbers that are equal
 /// would else move together, and what they do cancel.
-#[derive(Clone)]
 pub(crate) struct Shaker {
     time: u32,
     is_far: bool,

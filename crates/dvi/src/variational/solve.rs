@@ -447,18 +447,18 @@ impl<L: DiscreteLagrangian> Work<L> {
         };
         let mut other = self.shaken.take().unwrap_or_else(storage);
         // The last one shows what cancels in the others.
-        let shaker = match time < MEASUREMENTS {
-            true => Shaker::new(time),
-            false => Shaker::far(time),
+        let new = match time < MEASUREMENTS {
+            true => Shaker::new,
+            false => Shaker::far,
         };
-        let fresh = shaker.clone();
+        let shaker = new(time);
         L::Group::convert_into::<f64, f64>(&state.g, |x| shaker.shake(x), &mut other.state.g);
         other.state.t = state.t;
         other.state.mu.copy_from(&state.mu);
         other.c.copy_from(&self.c);
         other.residual.copy_from(&self.balance.residual);
-        shake(&mut other.state.mu, &fresh.clone());
-        shake(&mut self.c, &fresh);
+        shake(&mut other.state.mu, &new(time));
+        shake(&mut self.c, &new(time));
         self.evaluate(lagrangian, &other.state, h);
         other.residual.add_scaled(-1.0, &self.balance.residual);
         self.sizes.raise_noise(&other.residual, shaker.times());

@@ -6,8 +6,8 @@ use dvi::{
 };
 use lie::{Over, SO3, Scalar};
 
+use crate::by_jets::ByJets;
 use crate::means::{Body, top};
-use crate::steps::ByJets;
 
 /// A body whose mass grows with time; its formula is made anew for each evaluation.
 #[derive(Clone, Copy)]

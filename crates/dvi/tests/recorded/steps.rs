@@ -1,48 +1,14 @@
 //! Steps by what was recorded are those by dual numbers.
 
 use dvi::{
-    Composition, Context, Derivatives, DiscreteLagrangian, DualSystem, FirstVariation, Gauss,
-    Integrator, Lagrangian, Means, Quadrature, State, System, TracedSystem, Variation, Variational,
+    Composition, DualSystem, FirstVariation, Gauss, Integrator, Lagrangian, Means, Quadrature,
+    State, TracedSystem, Variation, Variational,
 };
-use lie::{Over, RealGroup, Scalar, VectorSpace};
+use lie::{RealGroup, VectorSpace};
 
 use crate::beam::{BEAM, Beam, apart, bent};
+use crate::by_jets::ByJets;
 use crate::means::{Top, top};
-
-/// A discrete Lagrangian by dual numbers whatever can be recorded.
-#[derive(Clone, Copy)]
-pub struct ByJets<L>(pub L);
-
-impl<L: DiscreteLagrangian> System for ByJets<L> {
-    type Group = L::Group;
-    fn parameters(&self) -> &[f64] {
-        self.0.parameters()
-    }
-}
-
-impl<L: DiscreteLagrangian> DiscreteLagrangian for ByJets<L> {
-    type Workspace<S: Scalar> = ();
-    fn value<S: Scalar>(
-        &self,
-        at: Context<S>,
-        g: &Over<L::Group, S>,
-        f: &Over<L::Group, S>,
-        h: S,
-    ) -> S {
-        self.0.value(at, g, f, h)
-    }
-    fn derivatives<S: Scalar>(
-        &self,
-        at: Context<S>,
-        g: &Over<L::Group, S>,
-        f: &Over<L::Group, S>,
-        h: S,
-        (): &mut (),
-        out: &mut Derivatives<L::Group, S>,
-    ) {
-        out.by_jets(&self.0, at, g, f, h);
-    }
-}
 
 /// A step of an integrator, with the variations carried along.
 type Step<'a, G> = dyn FnMut(&mut State<G>, &mut [Variation<G>]) -> Means + 'a;
