@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example urdf_survey -- DIR` lists each file with its outcome. A robot starts with its hinges at up to 1 rad/s, in a vacuum
 //! and under gravity; a free one turns, too. Then a run in a fluid follows. The energy, with the work of dampers, must be kept to 1e-6 of the largest
-//! kinetic energy, and momenta, those that the motion keeps, to 1e-9 of their size.
+//! kinetic energy. The momenta that the motion keeps must be kept to 1e-9 of their size.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

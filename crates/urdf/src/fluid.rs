@@ -22,8 +22,10 @@ pub(crate) struct Share {
     pub centre: Vec3,
 }
 
-/// The ellipsoids together, as if each were alone in the fluid: with $r$ from the mass centre to one that has the added mass $A$
-/// and the added inertia $B$, $M = \sum A$, $C = -\sum A \hat r$ and $J = \sum B - \hat r A \hat r$.
+/// The ellipsoids together, as if each were alone in the fluid.
+///
+/// An ellipsoid has the added mass $A$ and the added inertia $B$, and $r$ leads from the mass centre to it. The sums are $M = \sum A$,
+/// $C = -\sum A \hat r$ and $J = \sum B - \hat r A \hat r$.
 pub(crate) fn share(solids: &[Solid], mass_centre: Vec3, density: f64) -> Share {
     let mut share = Share {
         mass: Mat3::zero(),

@@ -129,6 +129,28 @@ pub fn run<J: Job>(set: InstructionSet, job: J) -> J::Output {
 }
 
 /// Does the job for as many problems as these instructions take side by side; for one where the processor does not have them.
+///
+/// ```
+/// use lie::lanes::{InstructionSet, PerLane, PerLaneJob, run_per_lane};
+///
+/// /// The root of each number, by a formula for one.
+/// struct Roots<'a>(&'a mut [f64]);
+///
+/// impl PerLaneJob for Roots<'_> {
+///     type Output = ();
+///     fn run<S: PerLane>(self) {
+///         for numbers in self.0.chunks_mut(S::LANES) {
+///             let x = S::from_lanes(|lane| numbers.get(lane).copied().unwrap_or(1.0));
+///             let roots = S::run(#[inline(always)] || x.sqrt());
+///             numbers.copy_from_slice(&roots.lanes()[..numbers.len()]);
+///         }
+///     }
+/// }
+///
+/// let mut x = [1.0, 4.0, 9.0];
+/// run_per_lane(InstructionSet::widest(x.len()), Roots(&mut x));
+/// assert_eq!(x, [1.0, 2.0, 3.0]);
+/// ```
 pub fn run_per_lane<J: PerLaneJob>(set: InstructionSet, job: J) -> J::Output {
     match set {
         _ if !set.is_available() => job.run::<f64>(),
