@@ -34,7 +34,7 @@ fn a_robot_becomes_a_scene_that_runs() {
         assert!(scene.contains(comment), "{comment}: {scene}");
     }
     // The stroke of the guide.
-    let stroke = turtle().replace("turtle.urdf", "turtle-stroke.toml");
+    let stroke = turtle().replace("turtle.urdf", "turtle.stroke");
     scene += &fs::read_to_string(stroke).unwrap();
     fs::write(directory.path().join("turtle.toml"), scene).unwrap();
     let run = [

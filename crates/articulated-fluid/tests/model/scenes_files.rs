@@ -38,6 +38,33 @@ fn start(scene: &Scene) -> (ArticulatedBody, State<Configuration>, Conserved) {
     (model, state, conserved)
 }
 
+/// Every TOML file in and below a folder, but for the scenes that are wrong on purpose.
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let below = paths.flat_map(|path| match path.is_dir() {
+        true if path.ends_with("wrong") => Vec::new(),
+        true => files_below(&path),
+        false => vec![path],
+    });
+    let toml = |path: &PathBuf| {
+        path.extension()
+            .is_some_and(|extension| extension == "toml")
+    };
+    below.filter(toml).collect()
+}
+
+#[test]
+fn every_file_of_the_collection_is_a_whole_scene() {
+    let files = files_below(&directory());
+    assert!(files.len() >= 30);
+    for file in files {
+        let scene = Scene::load(&file).unwrap_or_else(|error| panic!("{error}"));
+        scene.model().expect("a model");
+        scene.initial_state().expect("a state");
+    }
+}
+
 #[test]
 fn every_scene_is_read_and_has_a_title() {
     let scenes = all();
