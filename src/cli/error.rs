@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use articulated_fluid::{ModelError, SceneError};
 #[cfg(feature = "chart")]
 use figure::FigureError;
+use gait::GaitError;
 use sim::SimError;
 use sim::file::FileError;
 use sim::number::decimal;
@@ -30,6 +31,8 @@ pub enum CliError {
     Scene(#[from] SceneError),
     #[error("{file}: {source}")]
     Model { file: String, source: ModelError },
+    #[error("{file}: {source}")]
+    Gait { file: String, source: GaitError },
     #[error("{file}: {source}")]
     Robot { file: String, source: UrdfError },
     #[error("{}{}{}", option(.0), .0, advice(.0))]
@@ -57,6 +60,8 @@ pub enum CliError {
     Output { path: PathBuf, source: FileError },
     #[error("interrupted at t = {} s; nothing was written", decimal(*t))]
     Interrupted { t: f64, signal: usize },
+    #[error("interrupted; the best stroke so far is written")]
+    BestSoFar { signal: usize },
     #[cfg(feature = "chart")]
     #[error("interrupted; nothing was written")]
     Stopped { signal: usize },
@@ -127,6 +132,11 @@ impl CliError {
             },
             #[cfg(feature = "chart")]
             Self::Parameter(_) | Self::StepBeyondEnd { .. } | Self::NothingToSolve => USAGE,
+            Self::Gait { source, .. } => match source {
+                GaitError::Step(_) | GaitError::NotSteady { .. } | GaitError::NoStroke => FAILURE,
+                _ => USAGE,
+            },
+            Self::BestSoFar { signal } => signalled(*signal),
             Self::Interrupted { signal, .. } => signalled(*signal),
             #[cfg(feature = "chart")]
             Self::Stopped { signal } => signalled(*signal),

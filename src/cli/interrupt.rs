@@ -51,6 +51,14 @@ impl Interrupt {
         Ok(Self { signal })
     }
 
+    /// The number of the signal, once one came.
+    pub fn signal(&self) -> Option<usize> {
+        match self.signal.load(Ordering::Relaxed) {
+            0 => None,
+            signal => Some(signal),
+        }
+    }
+
     /// What `work` comes to, or the number of a signal, soon after it came: wherever the work is, it goes on beside and ends with the
     /// command.
     pub fn heeding<T: Send + 'static>(
@@ -68,12 +76,12 @@ impl Interrupt {
             Err(error) => return Ok(Err(CliError::Thread(error))),
         };
         loop {
-            match self.signal.load(Ordering::Relaxed) {
-                0 if worker.is_finished() => {
+            match self.signal() {
+                Some(signal) => return Err(signal),
+                None if worker.is_finished() => {
                     return Ok(worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
                 }
-                0 => thread::park_timeout(LOOK),
-                signal => return Err(signal),
+                None => thread::park_timeout(LOOK),
             }
         }
     }

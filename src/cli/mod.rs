@@ -9,6 +9,7 @@ mod contenders;
 mod error;
 #[cfg(feature = "chart")]
 mod files;
+mod gait;
 mod import;
 mod inspect;
 mod interrupt;
@@ -48,6 +49,7 @@ Examples:
   lgvi run boat.toml --step 0.01        a scene of one's own
   lgvi view boat.toml                   its moving picture, in the browser
   lgvi run --method gauss-4             another integrator, at its own default step{EXPERIMENTS}
+  lgvi gait boat.toml                   what a stroke of its joints does, and the best one
   lgvi import robot.urdf > robot.toml   a robot as a scene
   lgvi inspect boat.toml                what it is modelled with, and why
   lgvi methods                          the integrators: orders, steps, costs
@@ -74,6 +76,7 @@ enum Command {
     Chart(chart::Args),
     #[cfg(feature = "chart")]
     Stability(stability::Args),
+    Gait(gait::Args),
     Import(import::Args),
     Inspect(inspect::Args),
     Methods(methods::Args),
@@ -88,6 +91,7 @@ impl Command {
             Self::Chart(args) => chart::execute(args),
             #[cfg(feature = "chart")]
             Self::Stability(args) => stability::execute(args),
+            Self::Gait(args) => gait::execute(args),
             Self::Import(args) => import::execute(args),
             Self::Inspect(args) => inspect::execute(args),
             Self::Methods(args) => methods::execute(args),

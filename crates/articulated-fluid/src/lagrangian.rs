@@ -1,7 +1,7 @@
 //! The continuous model: the Lagrangian (6), the Legendre transform (10), the forces (11)–(13), Hamilton's equations (18)–(20).
 
 use dvi::{Context, ContinuousSystem, Lagrangian, ShapeError, System};
-use lie::{Cotangent, Scalar, Vec3};
+use lie::{Cotangent, SO3, Scalar, Vec3};
 
 use crate::inertia::Elimination;
 use crate::joints::{Any, Balls, Kinds};
@@ -76,6 +76,21 @@ impl<S: Scalar> Default for Evaluation<S> {
             forces: ForceWork::default(),
             on_whole: Vec3::zero(),
         }
+    }
+}
+
+impl<S: Scalar> Evaluation<S> {
+    /// Lets prescribed joints of a tree do other motions than they are told, in the next evaluation at the time `t`, s: of each body
+    /// the attitude on its parent, and the rate of it in the body's frame, rad/s.
+    ///
+    /// So a stroke can be differentiated by its own numbers. What follows belongs to these motions until they are given anew.
+    pub fn steer(
+        &mut self,
+        tree: &ArticulatedBody,
+        t: S,
+        motions: impl Iterator<Item = (usize, (SO3<S>, Vec3<S>))>,
+    ) {
+        tree.steer_motions(t, motions, &mut self.pose);
     }
 }
 

@@ -104,6 +104,19 @@ impl ArticulatedBody {
         }
     }
 
+    /// Reads the motions, but lets the joints of some bodies do others: each the attitude on the parent, and its rate in the body's frame.
+    pub(crate) fn steer_motions<S: Scalar>(
+        &self,
+        t: S,
+        others: impl Iterator<Item = (usize, (SO3<S>, Vec3<S>))>,
+        pose: &mut Pose<S>,
+    ) {
+        self.read_motions_at(t, pose);
+        for (body, (attitude, rate)) in others {
+            (pose.c[body], pose.rates[body]) = (attitude, rate);
+        }
+    }
+
     /// From when to when all that moves as told is told, s: tables are not for ever.
     pub fn told(&self) -> [f64; 2] {
         let place = match &self.base {
@@ -115,6 +128,16 @@ impl ArticulatedBody {
         all.fold([f64::NEG_INFINITY, f64::INFINITY], |[a, b], [from, to]| {
             [a.max(from), b.min(to)]
         })
+    }
+
+    /// From when on all that moves as told repeats itself, and after how long, s: nothing told repeats after 0 s; `None` where it never does.
+    pub fn repeats(&self) -> Option<[f64; 2]> {
+        let place = match &self.base {
+            Base::Free => None,
+            Base::Held { place, .. } => Some(place.repeats()),
+        };
+        let motions = self.joints.motions.iter().map(Motion::repeats);
+        motion::common(motions.chain(place).chain(self.loads.forces.repeats()))
     }
 
     /// How fast what is told changes in the first seconds, rad/s; zero where nothing is told.

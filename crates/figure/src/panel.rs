@@ -4,6 +4,7 @@ use crate::axis::{Axis, Scale, range};
 use crate::colour::FRAME;
 use crate::ends::{self, Labels};
 use crate::font;
+use crate::heat::Heat;
 use crate::line::{DASHES, Level, Line};
 use crate::plot::Plot;
 use crate::svg::{Pen, Svg};
@@ -31,6 +32,8 @@ pub struct Panel {
     pub y_label: String,
     /// Scale of the vertical axis.
     pub y_scale: Scale,
+    /// A map below all else.
+    pub heat: Option<Heat>,
     /// Drawn dashed, below the curves.
     pub levels: Vec<Level>,
     /// Curves, the first one at the bottom.
@@ -51,18 +54,25 @@ impl Panel {
         let points = self.lines.iter().flat_map(|line| &line.points);
         let points = points.filter(|(_, y)| Scale::Linear.coordinate(*y).is_some());
         let points = points.filter_map(|(x, y)| Some((self.x_scale.coordinate(*x)?, *y)));
-        let times = points.clone().map(|(x, _)| x);
+        let [across, up] = [|heat: &Heat| heat.x, |heat: &Heat| heat.y]
+            .map(|ends| self.heat.iter().flat_map(ends).collect::<Vec<_>>());
+        let times = points.clone().map(|(x, _)| x).chain(across);
         let levels = self.levels.iter().map(|level| level.y);
-        let heights = points.map(|(_, y)| y).chain(levels);
+        let heights = points.map(|(_, y)| y).chain(levels).chain(up);
         let heights = heights.filter_map(|y| self.y_scale.coordinate(y));
+        // A map fills its panel.
+        let margin = if self.heat.is_some() { 0.0 } else { Y_MARGIN };
         (
             Axis::new(self.x_scale, range(times), 0.0, X_TICKS),
-            Axis::new(self.y_scale, range(heights), Y_MARGIN, Y_TICKS),
+            Axis::new(self.y_scale, range(heights), margin, Y_TICKS),
         )
     }
 
     /// Draws the panel, whose left end is `left`, and whose right end is `right`.
     pub(crate) fn draw(&self, svg: &mut Svg, plot: &Plot, labels: Labels, [left, right]: [f64; 2]) {
+        if let Some(heat) = &self.heat {
+            heat.draw(svg, plot);
+        }
         plot.draw_rules(svg);
         let pen = Pen::new(FRAME, 1.0, DASHES);
         for y in self.levels.iter().filter_map(|level| plot.height(level.y)) {

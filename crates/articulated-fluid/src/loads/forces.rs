@@ -145,6 +145,20 @@ impl Forces {
         joints.chain(thrusts)
     }
 
+    /// From when on each repeats itself, and after how long, s.
+    pub(crate) fn repeats(&self) -> impl Iterator<Item = Option<[f64; 2]>> {
+        let joints = self.joints.iter().flat_map(|joint| {
+            let torque = joint.load.torque.iter().map(Torque::repeats);
+            let servo = joint.load.servo.iter().map(|servo| servo.target.repeats());
+            torque.chain(servo)
+        });
+        let thrusts = self
+            .thrusts
+            .iter()
+            .map(|(_, thrust)| thrust.force.repeats());
+        joints.chain(thrusts)
+    }
+
     /// How fast each that is told changes, rad/s.
     pub(crate) fn told_rates(&self, until: f64) -> impl Iterator<Item = f64> {
         let joints = self.joints.iter().flat_map(move |joint| {

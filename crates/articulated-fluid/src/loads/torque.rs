@@ -35,6 +35,14 @@ impl Torque {
         }
     }
 
+    /// From when on it repeats itself, and after how long, s.
+    pub(crate) fn repeats(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Hinge(law) => law.repeats(),
+            Self::Ball(law) => law.repeats(),
+        }
+    }
+
     /// How fast it changes, rad/s.
     pub(crate) fn rate(&self, until: f64) -> f64 {
         match self {

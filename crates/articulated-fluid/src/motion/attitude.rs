@@ -94,6 +94,16 @@ impl Motion {
         }
     }
 
+    /// From when on it [repeats](Law::repeats) itself, and after how long, s.
+    pub fn repeats(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Fixed(_) => Some([0.0; 2]),
+            Self::Hinge { angle, .. } => angle.repeats(),
+            Self::Ball { turn, .. } => turn.repeats(),
+            Self::Function(_) => None,
+        }
+    }
+
     /// How fast it changes in the first seconds, rad/s.
     pub(crate) fn rate(&self, until: f64) -> f64 {
         match self {

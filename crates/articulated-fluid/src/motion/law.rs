@@ -14,6 +14,11 @@ pub trait Law<const N: usize>: Debug + Send + Sync {
         [f64::NEG_INFINITY, f64::INFINITY]
     }
 
+    /// From when on it repeats itself, and after how long, s; none where it never does. What is constant repeats after 0 s.
+    fn repeats(&self) -> Option<[f64; 2]> {
+        self.is_constant().then_some([0.0; 2])
+    }
+
     /// Whether nothing moves.
     fn is_constant(&self) -> bool {
         false

@@ -5,11 +5,13 @@
 
 mod attitude;
 mod law;
+mod period;
 mod sinusoid;
 mod spline;
 
 pub use attitude::Motion;
 pub use law::Law;
 pub(crate) use law::{at, rate, value};
+pub(crate) use period::common;
 pub use sinusoid::Sinusoid;
 pub use spline::{Ends, Spline, SplineError};

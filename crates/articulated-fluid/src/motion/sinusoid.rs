@@ -88,6 +88,18 @@ impl<const N: usize> Law<N> for Sinusoid<N> {
         silent || self.frequency == 0.0 && self.ramp == 0.0
     }
 
+    fn repeats(&self) -> Option<[f64; 2]> {
+        let still = self.is_constant() || self.frequency == 0.0;
+        Some([
+            self.ramp,
+            if still {
+                0.0
+            } else {
+                1.0 / self.frequency.abs()
+            },
+        ])
+    }
+
     /// By the rule of Leibniz.
     fn derivative(&self, t: f64, k: u32) -> [f64; N] {
         let mut sum = if k == 0 { self.bias } else { [0.0; N] };

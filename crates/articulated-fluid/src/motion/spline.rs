@@ -165,6 +165,11 @@ impl<const N: usize> Law<N> for Spline<N> {
         }
     }
 
+    fn repeats(&self) -> Option<[f64; 2]> {
+        let [first, last] = self.span();
+        (self.ends == Ends::Periodic).then_some([0.0, last - first])
+    }
+
     fn told(&self) -> [f64; 2] {
         match self.ends {
             Ends::Periodic => [f64::NEG_INFINITY, f64::INFINITY],

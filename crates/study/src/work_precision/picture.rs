@@ -102,6 +102,7 @@ impl Chart<'_> {
                 .chain(floor)
                 .collect(),
             lines: self.lines((x.quantity, y.quantity), failed),
+            heat: None,
         }
     }
 

@@ -1,0 +1,95 @@
+//! How far ellipsoids are apart.
+
+use articulated_fluid::Scene;
+use lie::{Mat3, Scalar, Sym3, Vec3};
+
+use crate::error::GaitError;
+use crate::formulas::Evaluator;
+use crate::tree::Tree;
+
+/// Halvings of the interval of the contact function's maximum, at which the function is flat.
+const HALVINGS: usize = 30;
+
+/// The pairs of a scene's bodies that have a shape: how much they overlap, recorded once.
+pub(crate) struct Clearance {
+    pairs: Vec<Pair>,
+}
+
+/// The contact function of two bodies by shape and $\lambda$: its slope in $\lambda$, and value and gradient.
+struct Pair {
+    slope: Evaluator,
+    gradient: Evaluator,
+}
+
+impl Clearance {
+    pub(crate) fn of(scene: &Scene, tree: &Tree) -> Result<Self, GaitError> {
+        let shapes = scene.bodies.iter().enumerate().filter_map(|(i, body)| {
+            let axes = body
+                .semi_axes()
+                .filter(|axes| axes.iter().all(|a| *a > 0.0))?;
+            Some((i, axes))
+        });
+        let shapes: Vec<(usize, [f64; 3])> = shapes.collect();
+        let each = shapes.iter().enumerate();
+        let pairs = each.flat_map(|(k, b)| shapes[..k].iter().map(move |a| [*a, *b]));
+        let pairs = pairs.map(|pair| Pair::new(tree, pair));
+        Ok(Self {
+            pairs: pairs.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// How many pairs there are.
+    pub(crate) fn len(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// $1 - F$ of each pair, which is positive where the two overlap, and its derivatives by the shape.
+    pub(crate) fn overlaps(&self, q: &[f64]) -> Result<Vec<(f64, Vec<f64>)>, GaitError> {
+        self.pairs.iter().map(|pair| pair.overlap(q)).collect()
+    }
+}
+
+impl Pair {
+    fn new(tree: &Tree, pair: [(usize, [f64; 3]); 2]) -> Result<Self, GaitError> {
+        let m = tree.dim();
+        let formula = |x: &[trace::Traced]| vec![contact(tree, pair, &x[..m], x[m])];
+        let mut graph = trace::record(m + 1, formula).map_err(GaitError::Trace)?;
+        let (value, x) = (graph.outputs()[0], graph.inputs());
+        let slope = graph.gradient(value, &x[m..]);
+        let mut gradient = vec![value];
+        gradient.extend(graph.gradient(value, &x[..m]));
+        Ok(Self {
+            slope: Evaluator::new(&graph, &slope),
+            gradient: Evaluator::new(&graph, &gradient),
+        })
+    }
+
+    fn overlap(&self, q: &[f64]) -> Result<(f64, Vec<f64>), GaitError> {
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut x = q.to_vec();
+        x.push(0.5);
+        // The function is concave in λ; at its maximum, λ may be held.
+        for _ in 0..HALVINGS {
+            let rises = self.slope.with(&x, |out| out[0] > 0.0)?;
+            *(if rises { &mut low } else { &mut high }) = x[q.len()];
+            x[q.len()] = 0.5 * (low + high);
+        }
+        self.gradient.with(&x, |out| {
+            (1.0 - out[0], out[1..].iter().map(|slope| -slope).collect())
+        })
+    }
+}
+
+/// $\lambda (1 - \lambda) r^T ((1 - \lambda) A + \lambda B)^{-1} r$: at its maximum over $\lambda$ the contact function of J. W. Perram and
+/// M. S. Wertheim (1985), the square of the distance over that at which the ellipsoids touch.
+fn contact<S: Scalar>(tree: &Tree, [a, b]: [(usize, [f64; 3]); 2], q: &[S], lambda: S) -> S {
+    let bodies = tree.bodies(q);
+    let shape = |(body, axes): (usize, [f64; 3])| {
+        let squares = Mat3::diagonal(axes.map(|a| a * a));
+        Sym3::upper(&squares.lift::<S>()).turned(bodies[body].0.matrix())
+    };
+    let apart: Vec3<S> = bodies[b.0].1 - bodies[a.0].1;
+    let rest = S::one() - lambda;
+    let x = (shape(a) * rest + shape(b) * lambda).ldl().solve(apart);
+    lambda * rest * apart.dot(x)
+}

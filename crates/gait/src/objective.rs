@@ -1,0 +1,135 @@
+//! What a stroke is best by.
+
+use lie::{Cotangent, LieGroup, SE3, Vec3};
+
+use crate::chain::Chain;
+use crate::effort::Effort;
+use crate::error::GaitError;
+use crate::gradient::net_with_gradient;
+use crate::net::path;
+use crate::screw::power;
+use crate::stroke::Fourier;
+
+/// The strokes over which the distance counts: a swimmer that turns comes less far.
+pub const STROKES: u32 = 10;
+
+/// Parts of the period in which the net motion is found, and times at which an effort is.
+const PARTS: usize = 32;
+const SAMPLES: usize = 64;
+
+/// What the best stroke has most of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Objective {
+    /// The distance in a stroke, m: that of [`STROKES`] strokes over their number.
+    Advance,
+    /// That over the [length](Effort::Length) of the stroke, kg^-1/2.
+    AdvancePerLength,
+    /// That over the [positive work](Effort::Work) of the stroke, m/J.
+    AdvancePerWork,
+    /// The turn of a stroke, rad.
+    Turn,
+}
+
+impl Objective {
+    /// All of them.
+    pub const ALL: [Self; 4] = [
+        Self::Advance,
+        Self::AdvancePerLength,
+        Self::AdvancePerWork,
+        Self::Turn,
+    ];
+
+    /// Its name on a command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Advance => "advance",
+            Self::AdvancePerLength => "advance-per-length",
+            Self::AdvancePerWork => "advance-per-work",
+            Self::Turn => "turn",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Advance => "m",
+            Self::AdvancePerLength => "kg^-1/2",
+            Self::AdvancePerWork => "m/J",
+            Self::Turn => "rad",
+        }
+    }
+
+    fn effort(self) -> Option<Effort> {
+        match self {
+            Self::Advance | Self::Turn => None,
+            Self::AdvancePerLength => Some(Effort::Length),
+            Self::AdvancePerWork => Some(Effort::Work),
+        }
+    }
+
+    /// What a stroke without momentum has of it.
+    ///
+    /// # Errors
+    /// [`GaitError::Shape`].
+    pub fn of(self, chain: &Chain, stroke: &Fourier) -> Result<f64, GaitError> {
+        let g = path(chain, stroke, PARTS)?[PARTS];
+        let gained = self.gain(&g).0;
+        match self.effort() {
+            None => Ok(gained),
+            Some(effort) => Ok(gained / effort.of(chain, stroke, SAMPLES)?),
+        }
+    }
+
+    /// The same with its gradient in the coefficients.
+    ///
+    /// # Errors
+    /// [`GaitError::Shape`].
+    pub fn with_gradient(
+        self,
+        chain: &Chain,
+        stroke: &Fourier,
+    ) -> Result<(f64, Vec<f64>), GaitError> {
+        let (g, motions) = net_with_gradient(chain, stroke, PARTS)?;
+        let (gained, slope) = self.gain(&g);
+        let slopes = motions.iter().map(|motion| slope.pair(motion));
+        let Some(effort) = self.effort() else {
+            return Ok((gained, slopes.collect()));
+        };
+        let (spent, costs) = effort.with_gradient(chain, stroke, SAMPLES)?;
+        let value = gained / spent;
+        let slopes = slopes
+            .zip(costs)
+            .map(|(slope, cost)| (slope - value * cost) / spent);
+        Ok((value, slopes.collect()))
+    }
+
+    /// What is gained by a net motion, and its derivative by $g^{-1} \delta g$.
+    pub(crate) fn gain(self, g: &SE3) -> (f64, Cotangent<6>) {
+        match self {
+            Self::Turn => {
+                let turning = g.rotation.log().unwrap_or_else(|e| e.representative).vec3();
+                let turn = turning.norm();
+                let axis = turning * (1.0 / turn.max(f64::MIN_POSITIVE));
+                (turn, (axis, Vec3::zero()).into())
+            }
+            _ => distance(g),
+        }
+    }
+}
+
+/// $|d_n| / n$ of $g^n$. With $\eta = g^{-1} \delta g$ it is $g^{-n} \delta g^n = \sum_{k < n} \mathrm{Ad}_{g^{-k}} \eta$.
+fn distance(g: &SE3) -> (f64, Cotangent<6>) {
+    let end = power(g, STROKES);
+    let far = end.translation.norm();
+    let n = f64::from(STROKES);
+    let along = end.translation * (1.0 / (n * far.max(f64::MIN_POSITIVE)));
+    let pulled = end.rotation.inverse_rotate(along);
+    let mut slope = Cotangent::zero();
+    let back = g.inverse();
+    let mut before = SE3::identity();
+    for _ in 0..STROKES {
+        slope += before.coadjoint(&(Vec3::zero(), pulled).into());
+        before = before.compose(&back);
+    }
+    (far / n, slope)
+}

@@ -1,0 +1,98 @@
+//! The best strokes of a swimmer whose best ones are known.
+
+use gait::{Fourier, Limits, Objective, Search};
+
+use crate::swimmers::three_links;
+
+const ANY: Limits = Limits {
+    angle: 2.0,
+    rate: f64::INFINITY,
+};
+
+fn search() -> Search {
+    let motion = "{ amplitude = 0.5, frequency = 1, phase = 0 }";
+    Search::new(&three_links([motion; 2]), Objective::AdvancePerLength, ANY).expect("a search")
+}
+
+/// $q_1 = r \cos t$, $q_2 = r \cos (t - \varphi)$.
+fn ellipse(r: f64, phase: f64) -> Fourier {
+    let (sin, cos) = phase.sin_cos();
+    let coefficients = vec![0.0, r, 0.0, 0.0, r * cos, r * sin];
+    Fourier::new(1.0, 1, coefficients).expect("a stroke")
+}
+
+/// By golden sections.
+fn best_of(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
+    const RATIO: f64 = 0.618_033_988_749_894_9;
+    for _ in 0..60 {
+        let step = RATIO * (high - low);
+        match of(high - step) > of(low + step) {
+            true => high = low + step,
+            false => low = high - step,
+        }
+    }
+    (0.5 * (low + high), of(0.5 * (low + high)))
+}
+
+/// Found with code independent of this project: r = 1.0501, and the ratio to its digits.
+#[test]
+fn the_best_circle_is_that_which_is_known() {
+    let search = search();
+    let ratio = |r: f64| {
+        let circle = ellipse(r, core::f64::consts::FRAC_PI_2);
+        Objective::AdvancePerLength
+            .of(search.chain(), &circle)
+            .expect("a ratio")
+    };
+    let (r, best) = best_of(ratio, [0.5, 1.5]);
+    assert!((r - 1.0501).abs() < 5e-5, "{r}");
+    assert!((best - 0.715573154).abs() < 5e-10, "{best}");
+}
+
+/// Each family holds the one before.
+#[test]
+fn more_harmonics_are_better() {
+    let search = search();
+    let circle = 0.715573154;
+    let mut before = circle;
+    for order in [1, 3] {
+        let start = Fourier::fit(&ellipse(1.0, 1.4), order).expect("a stroke");
+        let found = search
+            .improve(&start, &|| true)
+            .expect("an evaluation")
+            .expect("a stroke");
+        println!(
+            "order {order}: {} by {} evaluations: {:?}",
+            found.value,
+            found.evaluations,
+            found.stroke.coefficients()
+        );
+        assert!(found.value >= before, "{}", found.value);
+        let (value, gradient) = Objective::AdvancePerLength
+            .with_gradient(search.chain(), &found.stroke)
+            .expect("a gradient");
+        let size = gradient.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        assert!(size < 1e-3 * value, "no way leads further: {size}");
+        before = found.value;
+    }
+}
+
+/// A search that is to stop at once gives the start, where it is within the limits.
+#[test]
+fn a_search_that_is_stopped_gives_the_best_so_far() {
+    let search = search();
+    let start = ellipse(0.8, 1.4);
+    let asked = core::cell::Cell::new(0);
+    let go_on = || {
+        asked.set(asked.get() + 1);
+        asked.get() < 4
+    };
+    let found = search
+        .improve(&start, &go_on)
+        .expect("an evaluation")
+        .expect("a stroke");
+    let own = Objective::AdvancePerLength
+        .of(search.chain(), &start)
+        .expect("a ratio");
+    assert!(found.value >= own && found.evaluations <= 4, "{found:?}");
+}

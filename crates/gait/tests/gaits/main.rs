@@ -1,0 +1,9 @@
+//! Gaits against published numbers, against the stepped motion, and against differences.
+
+mod best;
+mod gradients;
+mod heights;
+mod net;
+mod rewritten;
+mod steady;
+mod swimmers;

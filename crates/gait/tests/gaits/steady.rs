@@ -1,0 +1,123 @@
+//! Steady strokes: orbits that come back, multipliers, and gradients by first variations.
+
+use articulated_fluid::Scene;
+use dvi::{Gauss, Integrator};
+use gait::{Chain, Fourier, Swimmer, net_motion};
+use lie::{LieGroup, SE3, VectorSpace};
+
+/// A fish of three ellipsoids, braked; its tail hangs on a spring or moves as told.
+fn braked(tail: &str, drag: f64) -> Scene {
+    let body = |name: &str, a: f64| {
+        format!(
+            "{{ name = '{name}', semi_axes = [{a}, 0.1, 0.2], drag = {{ linear = [{drag}, {0}, {0}], angular_linear = [{1}, {1}, {1}] }} }}",
+            4.0 * drag,
+            0.1 * drag
+        )
+    };
+    let text = format!(
+        "fluid.density = 10
+        start.momentum = 'zero'
+        body = [{}, {}, {}]
+        joint = [
+          {{ parent = 'trunk', child = 'head', at_parent = [0.55, 0, 0], at_child = [-0.35, 0, 0], type = 'hinge', axis = [0, 0.2, 1],
+             motion = {{ amplitude = 0.4, frequency = 1 }} }},
+          {{ parent = 'trunk', child = 'tail', at_parent = [-0.55, 0, 0], at_child = [0.35, 0, 0], type = 'hinge', axis = [0, 0, 1], {tail} }},
+        ]",
+        body("trunk", 0.5),
+        body("head", 0.3),
+        body("tail", 0.3),
+    );
+    Scene::parse(&text, "braked.toml").unwrap_or_else(|error| panic!("{error}"))
+}
+
+const DRIVEN: &str = "motion = { amplitude = 0.5, frequency = 1, phase = 1.2 }";
+const SPRUNG: &str = "stiffness = 2, damping = 0.2";
+
+/// Where many periods lead, from the scene's own start.
+fn after(scene: &Scene, periods: u32) -> SE3 {
+    const STEPS: u32 = 40;
+    let mut state = scene.initial_state().expect("a state");
+    let mut gauss = Gauss::new::<4>(scene.model().expect("a model"));
+    let at = |g: &articulated_fluid::Configuration| SE3::new(g.0[0], g.1[0].vec3());
+    let mut before = at(&state.g);
+    for n in 0..periods {
+        before = at(&state.g);
+        for k in 0..STEPS {
+            state.t = f64::from(n) + f64::from(k) / f64::from(STEPS);
+            gauss
+                .step(&mut state, 1.0 / f64::from(STEPS))
+                .expect("a step");
+        }
+    }
+    before.inverse().compose(&at(&state.g))
+}
+
+fn apart(a: &SE3, b: &SE3) -> f64 {
+    let change = a.inverse().compose(b);
+    change.translation.norm() + change.rotation.matrix().skew_vee().norm()
+}
+
+/// The net motion of the 80th period: disturbances have died out by the largest multiplier to the 80th.
+#[test]
+fn a_braked_swimmer_comes_to_its_steady_stroke() {
+    for tail in [DRIVEN, SPRUNG] {
+        let scene = braked(tail, 8.0);
+        let (steady, steps) = Swimmer::new(&scene)
+            .expect("a swimmer")
+            .steady()
+            .expect("a stroke");
+        println!("{steps} steps, multipliers {:?}", steady.multipliers);
+        assert!(steady.is_stable(), "{:?}", steady.multipliers);
+        let left = steady.largest_multiplier().powi(78);
+        let found = after(&scene, 80);
+        assert!(
+            apart(&steady.net, &found) < 1e-8 + left,
+            "{:?} {found:?}",
+            steady.net
+        );
+    }
+}
+
+/// Little drag leads to the stroke without momentum.
+#[test]
+fn without_drag_the_steady_stroke_is_that_of_the_shape() {
+    let net = |drag: f64| {
+        Swimmer::new(&braked(DRIVEN, drag))
+            .expect("a swimmer")
+            .steady()
+            .expect("a stroke")
+            .0
+            .net
+    };
+    let dry = braked(DRIVEN, 0.0);
+    let told = gait::Told::new(&dry.model().expect("a model")).expect("a stroke");
+    let chain = Chain::new(&dry).expect("a chain");
+    let ideal = net_motion(&chain, &told).expect("a motion");
+    // The momentum that drag leaves is in proportion to nothing but the stroke: the drag averages over it.
+    let [much, little] = [1.0, 0.1].map(|drag| apart(&net(drag), &ideal));
+    assert!(little < much, "{little} {much}");
+}
+
+/// Against central differences, whose error is some 1e-9 here.
+#[test]
+fn the_gradient_of_a_steady_stroke_is_that_of_differences() {
+    for tail in [DRIVEN, SPRUNG] {
+        let swimmer = Swimmer::new(&braked(tail, 8.0)).expect("a swimmer");
+        let own = Fourier::fit(swimmer.told(), 2).expect("a stroke");
+        let (net, gradient) = swimmer.steady_by(&own).expect("a gradient");
+        const STEP: f64 = 1e-4;
+        for k in 0..own.coefficients().len() {
+            let end = |by: f64| {
+                let mut coefficients = own.coefficients().to_vec();
+                coefficients[k] += by;
+                let moved = Fourier::new(1.0, 2, coefficients).expect("a stroke");
+                let end = swimmer.steady_by(&moved).expect("a motion").0;
+                net.inverse().compose(&end).log().expect("a small motion")
+            };
+            let mut difference = end(STEP) - end(-STEP);
+            difference.scale(0.5 / STEP);
+            let off = (difference - gradient[k]).max_magnitude();
+            assert!(off < 1e-7, "{k}: {difference:?} {:?}", gradient[k]);
+        }
+    }
+}
