@@ -15,6 +15,8 @@ mod bounds;
 mod chart;
 #[path = "cli/columns.rs"]
 mod columns;
+#[path = "cli/gait.rs"]
+mod gait;
 #[path = "cli/import.rs"]
 mod import;
 #[path = "cli/outputs.rs"]

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use articulated_fluid::SceneError;
 use dvi::{Cause, Hint, StepError};
+use gait::GaitError;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -61,6 +62,14 @@ pub fn of_robot(py: Python<'_>, file: &Path, error: &UrdfError) -> PyErr {
     match fields.set_item("file", file.display().to_string()) {
         Ok(()) => with_fields(py, "SceneError", &message, &fields),
         Err(error) => error,
+    }
+}
+
+/// A gait's: `lgvi.StepError` where a step was refused, else `ValueError`.
+pub fn of_gait(py: Python<'_>, error: &GaitError) -> PyErr {
+    match error {
+        GaitError::Step(source) => of_step(py, source, source.step, &error.to_string()),
+        _ => PyValueError::new_err(error.to_string()),
     }
 }
 

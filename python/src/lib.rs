@@ -3,6 +3,7 @@
 mod attend;
 mod ensemble;
 mod errors;
+mod gait;
 mod replace;
 mod run;
 mod scene;
@@ -13,6 +14,8 @@ mod system;
 mod _lgvi {
     #[pymodule_export]
     use crate::ensemble::ensemble;
+    #[pymodule_export]
+    use crate::gait::{best_gait, gait, height_maps, objectives};
     #[pymodule_export]
     use crate::run::methods;
     #[pymodule_export]

@@ -52,7 +52,7 @@ impl NativeScene {
         Ok(Self { file, files, scene })
     }
 
-    fn text(&self) -> &str {
+    pub fn text(&self) -> &str {
         // The scene was read of it.
         let text = self.files.get(&self.file);
         text.and_then(|bytes| str::from_utf8(bytes).ok())

@@ -93,22 +93,47 @@ impl Search {
         Fourier::fit(&Told::new(&model)?, order)
     }
 
-    /// A random stroke within the limits of the angles, in most of its length.
-    pub fn random(
+    /// The best strokes near the scene's own one and near random ones, `starts` in all; the same ones each time. `None` where no stroke
+    /// within the limits was met.
+    ///
+    /// `see` is called after each start with the number of those done; `go_on` as in [`improve`](Self::improve).
+    ///
+    /// # Errors
+    /// As [`improve`](Self::improve).
+    pub fn from_starts(
         &self,
-        period: f64,
-        order: usize,
-        random: &mut fastrand::Rng,
-    ) -> Result<Fourier, GaitError> {
+        own: &Fourier,
+        starts: u64,
+        see: &mut dyn FnMut(u64),
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Vec<Option<Found>>, GaitError> {
+        let mut random = fastrand::Rng::with_seed(1);
+        let mut found = Vec::new();
+        for k in 0..starts {
+            let start = match k {
+                0 => own.clone(),
+                _ => self.random(own, &mut random),
+            };
+            found.push(self.improve(&start, go_on)?);
+            see(k + 1);
+            if !go_on() {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// A random stroke within the limits of the angles, in most of its length.
+    fn random(&self, like: &Fourier, random: &mut fastrand::Rng) -> Fourier {
         let mut coefficients = Vec::new();
         for _ in 0..self.chain.dim() {
             let mut part = |of: f64| of * self.limits.angle * (2.0 * random.f64() - 1.0);
             coefficients.push(part(0.1));
-            for k in 1..=order {
+            for k in 1..=like.order() {
                 coefficients.extend([part(0.5), part(0.5)].map(|x| x / (k * k) as f64));
             }
         }
-        Fourier::new(period, order, coefficients)
+        like.with(&coefficients)
     }
 
     /// The best stroke near another one. `go_on` is asked before each evaluation; once it says no, the best until then is given.

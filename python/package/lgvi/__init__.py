@@ -9,6 +9,7 @@
 ``Run``       what a run gives: arrays by name, and a report
 ``ensemble``  many scenes on all cores
 ``methods``   the integrators by name
+``Scene.gait``  what a stroke of the joints does; ``Scene.best_gait`` finds the best one
 ``System``    a system of your own, by its Lagrangian on a group: ``SO2, SO3, SE2, SE3, Rn(n)``, products and powers
 ``where``     a choice inside of such a Lagrangian
 """

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from . import _gait
 from ._arguments import Progress, plan, reporter
 from ._lgvi import NativeScene
 from ._lgvi import methods as _methods
@@ -160,6 +161,65 @@ class Scene:
         arguments = plan(t, method, step, accuracy, every, full, estimate, exact)
         parts = self._native.simulate(arguments, reporter(progress, arguments[0], "s"))
         return Run._of(parts, self, arguments)
+
+    def gait(self, strokes: int = 10) -> dict[str, Any]:
+        """What a stroke of the joints does, as ``lgvi gait --json`` tells it, and where ``strokes`` of them lead.
+
+        The joints repeat a motion: that is the stroke. Without loads and momentum the shape alone leads. With loads or
+        free joints it is the steady stroke, a motion that after a period is as it was, but elsewhere.
+
+        ``net`` has the turn about an axis and the advance along it; ``positive_work_joules`` sums max(0, power) over
+        drives and time; ``cost_of_transport`` is that over m g d; ``multipliers`` of a steady stroke tell how a small
+        disturbance is after it; ``path_metres`` is where the first body is after each stroke.
+        The bodies' coupling through the fluid is left out: 4 to 23 % of the net motion of three links.
+
+        Raises ``ValueError`` where nothing repeats itself, the first body is held, or no steady stroke is found, and
+        ``lgvi.StepError`` where a step is refused.
+
+        >>> swimmer.gait()["net"]["advance_metres"]
+        """
+        if isinstance(strokes, bool) or not isinstance(strokes, int) or not 0 <= strokes < 2**32:
+            raise ValueError(f"strokes is {strokes!r}; expected a whole number >= 0")
+        return json.loads(_gait.gait(self._native, strokes))
+
+    def best_gait(
+        self,
+        objective: str = "advance-per-length",
+        *,
+        order: int = 2,
+        angle: float = 1.0,
+        rate: float | None = None,
+        starts: int = 10,
+        progress: Progress = None,
+    ) -> _gait.Best:
+        """The stroke that has most of an objective, from the scene's own stroke and from random ones.
+
+        objective  "advance": the distance in a stroke, m, of ten strokes in a row; "advance-per-length": that over the
+                   length of the stroke in the metric of the kinetic energy, kg^-1/2; "advance-per-work": that over the
+                   positive work, m/J; "turn": the turn of a stroke, rad.
+        order      harmonics of each shape coordinate; the period stays the scene's.
+        angle      the largest angle of a hinge, or turn of a ball from rest, rad.
+        rate       the largest rate of a joint, rad/s; None: any.
+        starts     how many strokes the search starts from; the same ones each time.
+        progress   True, or a function of the starts done.
+
+        Bodies with semi-axes do not overlap. The gradients are exact, and the optimiser is SLSQP. All joints are told,
+        without loads. Raises ``ValueError`` where no stroke within the limits is found.
+
+        >>> best = swimmer.best_gait("advance-per-work")
+        >>> best.scene.simulate(10)
+        """
+        text, best = _gait.search(self._native, objective, order, angle, rate, starts, progress)
+        file, files = self._native.state()
+        return best._replace(scene=self._of(NativeScene.restore(file, files | {file: text.encode()})))
+
+    def height_maps(self) -> _gait.HeightMaps:
+        """The height functions of two shape coordinates around the scene's stroke.
+
+        A small loop in their plane moves the swimmer by its height times its area, and a larger one nearly so, in body
+        coordinates whose connection is least over the map. Raises ``ValueError`` of another number of coordinates.
+        """
+        return _gait.maps(self._native)
 
     @property
     def title(self) -> str | None:

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::Path;
 
 use articulated_fluid::Scene;
-use gait::{Found, Fourier, GaitError, Limits, Objective, Search, Stroke, with_stroke};
+use gait::{Found, Fourier, GaitError, Limits, Objective, Search, with_stroke};
 use serde::Serialize;
 use sim::file::{AtomicFile, FileError};
 
@@ -46,7 +46,16 @@ pub(super) fn search(
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
     let order = usize::try_from(args.order).unwrap_or(usize::MAX);
     let own = search.own(scene, order).map_err(fail)?;
-    let found = from_all(args, &search, &own, &interrupt).map_err(fail)?;
+    let bar = progress::bar(args.starts, "starts {pos}/{len} {bar:30}");
+    let go_on = || interrupt.signal().is_none();
+    let found = search.from_starts(
+        &own,
+        args.starts,
+        &mut |done| bar.set_position(done),
+        &go_on,
+    );
+    drop(bar);
+    let found = found.map_err(fail)?;
     let better = |a: &&Found, b: &&Found| a.value.total_cmp(&b.value);
     let best = found.iter().flatten().max_by(better);
     let best = best.ok_or_else(|| fail(GaitError::NoStroke))?;
@@ -58,30 +67,6 @@ pub(super) fn search(
         Some(signal) => Err(CliError::BestSoFar { signal }),
         None => Ok(()),
     }
-}
-
-fn from_all(
-    args: &Args,
-    search: &Search,
-    own: &Fourier,
-    interrupt: &Interrupt,
-) -> Result<Vec<Option<Found>>, GaitError> {
-    let bar = progress::bar(args.starts, "starts {pos}/{len} {bar:30}");
-    // The same starts in each run, so that it can be repeated.
-    let mut random = fastrand::Rng::with_seed(1);
-    let mut found = Vec::new();
-    for k in 0..args.starts {
-        let start = match k {
-            0 => own.clone(),
-            _ => search.random(own.period(), own.order(), &mut random)?,
-        };
-        found.push(search.improve(&start, &|| interrupt.signal().is_none())?);
-        bar.inc(1);
-        if interrupt.signal().is_some() {
-            break;
-        }
-    }
-    Ok(found)
 }
 
 fn write(mut file: AtomicFile, text: &str) -> Result<(), FileError> {

@@ -8,7 +8,7 @@ use gait::{Chain, Effort, Screw, Told, net_motion};
 use lie::{LieGroup, SE3};
 use proptest::prelude::*;
 
-use crate::swimmers::{published, three_links, trees};
+use crate::swimmers::{Plain, published, three_links, trees};
 
 fn net(scene: &Scene) -> SE3 {
     let chain = Chain::new(scene).expect("a chain");
@@ -86,7 +86,7 @@ fn stepped(scene: &Scene, steps: u32) -> (SE3, f64, f64) {
     let mut state = scene.initial_state().expect("a state");
     let at = |g: &articulated_fluid::Configuration| SE3::new(g.0[0], g.1[0].vec3());
     let start = at(&state.g);
-    let (mut integrator, mut work) = (Gauss::new::<8>(model.clone()), Default::default());
+    let (mut integrator, mut work) = (Gauss::new::<8>(Plain(model.clone())), Default::default());
     let (mut drives, mut positive) = (model.drives(), 0.0);
     for k in 0..steps {
         state.t = f64::from(k) / f64::from(steps);

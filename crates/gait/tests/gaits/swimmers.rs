@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use articulated_fluid::Scene;
+use articulated_fluid::{ArticulatedBody, Configuration, Evaluation, Scene};
 use core::f64::consts::PI;
+use dvi::{Context, ContinuousSystem, System};
+use lie::{AlgebraOver, DualOver, Scalar};
 use proptest::prelude::*;
 
 /// A file of the scenes that states are known of.
@@ -78,4 +80,39 @@ pub fn trees() -> impl Strategy<Value = Scene> {
         }
         moves.then(|| Scene::parse(&text, "tree.toml").unwrap_or_else(|error| panic!("{error}: {text}")))
     })
+}
+
+/// A model that is stepped without lanes, which would take minutes to compile here.
+pub struct Plain(pub ArticulatedBody);
+
+impl System for Plain {
+    type Group = Configuration;
+
+    fn is_driven(&self) -> bool {
+        self.0.is_driven()
+    }
+
+    fn terms(&self) -> usize {
+        self.0.terms()
+    }
+
+    fn is_symplectic(&self) -> bool {
+        self.0.is_symplectic()
+    }
+}
+
+impl ContinuousSystem for Plain {
+    type Workspace<S: Scalar> = Evaluation<S>;
+
+    fn velocity_and_force<S: Scalar>(
+        &self,
+        at: Context<S>,
+        g: &Configuration<S>,
+        mu: &DualOver<Configuration, S>,
+        work: &mut Evaluation<S>,
+        xi: &mut AlgebraOver<Configuration, S>,
+        tau: &mut DualOver<Configuration, S>,
+    ) {
+        self.0.velocity_and_force(at, g, mu, work, xi, tau);
+    }
 }
