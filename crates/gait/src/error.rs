@@ -98,4 +98,9 @@ pub enum GaitError {
     /// A stroke that encloses no area.
     #[error("one of the two shape coordinates does not move; height functions need a loop")]
     Thin,
+    /// An objective that is not known of a scene.
+    #[error(
+        "with loads the positive work of the joints alone is not known; take advance, advance-per-length or turn"
+    )]
+    Objective,
 }

@@ -1,6 +1,6 @@
 //! What a stroke is best by.
 
-use lie::{Cotangent, LieGroup, SE3, Vec3};
+use lie::{Cotangent, LieGroup, SE3, Tangent, Vec3};
 
 use crate::chain::Chain;
 use crate::effort::Effort;
@@ -73,7 +73,7 @@ impl Objective {
     /// [`GaitError::Shape`].
     pub fn of(self, chain: &Chain, stroke: &Fourier) -> Result<f64, GaitError> {
         let g = path(chain, stroke, PARTS)?[PARTS];
-        let gained = self.gain(&g).0;
+        let gained = self.gain(&g);
         match self.effort() {
             None => Ok(gained),
             Some(effort) => Ok(gained / effort.of(chain, stroke, SAMPLES)?),
@@ -89,22 +89,35 @@ impl Objective {
         chain: &Chain,
         stroke: &Fourier,
     ) -> Result<(f64, Vec<f64>), GaitError> {
-        let (g, motions) = net_with_gradient(chain, stroke, PARTS)?;
-        let (gained, slope) = self.gain(&g);
+        self.of_motion(chain, stroke, net_with_gradient(chain, stroke, PARTS)?)
+    }
+
+    /// The same of a net motion that is known with its derivatives.
+    pub(crate) fn of_motion(
+        self,
+        chain: &Chain,
+        stroke: &Fourier,
+        (g, motions): (SE3, Vec<Tangent<6>>),
+    ) -> Result<(f64, Vec<f64>), GaitError> {
+        let (gained, slope) = self.gain_with_slope(&g);
         let slopes = motions.iter().map(|motion| slope.pair(motion));
         let Some(effort) = self.effort() else {
             return Ok((gained, slopes.collect()));
         };
         let (spent, costs) = effort.with_gradient(chain, stroke, SAMPLES)?;
         let value = gained / spent;
-        let slopes = slopes
-            .zip(costs)
-            .map(|(slope, cost)| (slope - value * cost) / spent);
+        let slopes = slopes.zip(costs);
+        let slopes = slopes.map(|(slope, cost)| (slope - value * cost) / spent);
         Ok((value, slopes.collect()))
     }
 
-    /// What is gained by a net motion, and its derivative by $g^{-1} \delta g$.
-    pub(crate) fn gain(self, g: &SE3) -> (f64, Cotangent<6>) {
+    /// What is gained by a net motion: the distance in a stroke, m, or the turn, rad.
+    pub fn gain(self, g: &SE3) -> f64 {
+        self.gain_with_slope(g).0
+    }
+
+    /// The same, and its derivative by $g^{-1} \delta g$.
+    fn gain_with_slope(self, g: &SE3) -> (f64, Cotangent<6>) {
         match self {
             Self::Turn => {
                 let turning = g.rotation.log().unwrap_or_else(|e| e.representative).vec3();

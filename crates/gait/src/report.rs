@@ -115,10 +115,9 @@ impl Report {
             .as_ref()
             .map(|chain| net_motion(chain, told))
             .transpose()?;
-        let is_kept = swimmer.model().keeps_momentum() && floats(scene);
-        let swims = match (&chain, is_kept, has_momentum(&swimmer)) {
-            (Some(_), true, false) => Swims::WithoutMomentum,
-            (Some(_), true, true) => Swims::WithMomentum,
+        let swims = match (&chain, swimmer.is_loaded(), has_momentum(&swimmer)) {
+            (Some(_), false, false) => Swims::WithoutMomentum,
+            (Some(_), false, true) => Swims::WithMomentum,
             _ => Swims::Steadily,
         };
         let mut multipliers = Vec::new();
@@ -159,13 +158,6 @@ impl Report {
             path_metres: path.iter().map(|g| g.translation.0).collect(),
         })
     }
-}
-
-/// Whether no weight is left that would give the whole a momentum.
-fn floats(scene: &Scene) -> bool {
-    let net: f64 = scene.bodies.iter().map(|body| body.net_mass).sum();
-    let size: f64 = scene.bodies.iter().map(|body| body.net_mass.abs()).sum();
-    scene.gravity == [0.0; 3] || (size == 0.0 && net == 0.0)
 }
 
 /// Whether the whole has a momentum, beside what the bodies have.

@@ -13,6 +13,7 @@ use crate::clearance::Clearance;
 use crate::error::GaitError;
 use crate::objective::Objective;
 use crate::stroke::{Fourier, Stroke, Told};
+use crate::swimmer::Swimmer;
 use crate::tree::Moving;
 
 /// A limit may be exceeded by so much of it.
@@ -32,6 +33,8 @@ pub struct Limits {
 /// A search for the best stroke of a chain.
 pub struct Search {
     chain: Chain,
+    /// Where loads act: then the net motion is that of the steady stroke.
+    loaded: Option<Swimmer>,
     clearance: Clearance,
     objective: Objective,
     limits: Limits,
@@ -59,10 +62,13 @@ struct Evaluated {
 }
 
 impl Search {
-    /// The search for a stroke of a scene's chain, whose bodies do not overlap.
+    /// The search for a stroke of a scene, whose joints all move as told and whose bodies do not overlap.
+    ///
+    /// With drag, thrust or weight it is for the best steady stroke, whose gradient is by first variations through the steps.
     ///
     /// # Errors
-    /// [`GaitError`] as of [`Chain::new`]; [`GaitError::Limits`] where a limit is not positive.
+    /// [`GaitError`] as of [`Chain::new`] and [`Swimmer::new`]; [`GaitError::Limits`] where a limit is not positive;
+    /// [`GaitError::Objective`] of the work where loads act, as they do work too.
     pub fn new(scene: &Scene, objective: Objective, limits: Limits) -> Result<Self, GaitError> {
         if !(limits.angle > 0.0 && limits.rate > 0.0 && limits.angle.is_finite()) {
             return Err(GaitError::Limits {
@@ -71,9 +77,14 @@ impl Search {
             });
         }
         let chain = Chain::new(scene)?;
+        let loaded = Some(Swimmer::new(scene)?).filter(Swimmer::is_loaded);
+        if loaded.is_some() && objective == Objective::AdvancePerWork {
+            return Err(GaitError::Objective);
+        }
         Ok(Self {
             clearance: Clearance::of(scene, chain.tree())?,
             chain,
+            loaded,
             objective,
             limits,
         })
@@ -230,7 +241,17 @@ impl Search {
     }
 
     fn evaluate(&self, stroke: &Fourier) -> Result<Evaluated, GaitError> {
-        let (value, gradient) = self.objective.with_gradient(&self.chain, stroke)?;
+        let (value, gradient) = match &self.loaded {
+            None => self.objective.with_gradient(&self.chain, stroke)?,
+            Some(swimmer) => match swimmer.steady_by(stroke) {
+                Ok(motion) => self.objective.of_motion(&self.chain, stroke, motion)?,
+                // There is none so far away: the search has to come back.
+                Err(GaitError::Step(_) | GaitError::NotSteady { .. }) => {
+                    (0.0, vec![0.0; stroke.coefficients().len()])
+                }
+                Err(error) => return Err(error),
+            },
+        };
         Ok(Evaluated {
             at: stroke.coefficients().to_vec(),
             value,

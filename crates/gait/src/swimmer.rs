@@ -26,6 +26,7 @@ pub struct Swimmer {
     model: ArticulatedBody,
     start: State<Configuration>,
     told: Told,
+    is_loaded: bool,
 }
 
 impl Swimmer {
@@ -41,8 +42,14 @@ impl Swimmer {
         Ok(Self {
             start: scene.initial_state().map_err(GaitError::Model)?,
             told: Told::new(&model)?,
+            is_loaded: !(model.keeps_momentum() && floats(scene)),
             model,
         })
+    }
+
+    /// Whether something acts that changes the momentum: drag, thrust, a weight.
+    pub fn is_loaded(&self) -> bool {
+        self.is_loaded
     }
 
     /// The model.
@@ -121,4 +128,11 @@ impl Swimmer {
         }
         Ok(())
     }
+}
+
+/// Whether no weight is left that would give the whole a momentum.
+fn floats(scene: &Scene) -> bool {
+    let mut bodies = scene.bodies.iter();
+    let afloat = bodies.all(|body| body.net_mass == 0.0 && body.buoyancy_at == [0.0; 3]);
+    afloat || scene.gravity == [0.0; 3]
 }

@@ -2,7 +2,7 @@
 
 use articulated_fluid::Scene;
 use dvi::{Gauss, Integrator};
-use gait::{Chain, Fourier, Swimmer, net_motion};
+use gait::{Chain, Fourier, GaitError, Limits, Objective, Search, Swimmer, net_motion};
 use lie::{LieGroup, SE3, VectorSpace};
 
 use crate::swimmers::Plain;
@@ -122,4 +122,28 @@ fn the_gradient_of_a_steady_stroke_is_that_of_differences() {
             assert!(off < 1e-7, "{k}: {difference:?} {:?}", gradient[k]);
         }
     }
+}
+
+/// With drag: the best stroke within a limit is better than the scene's own.
+#[test]
+fn a_better_stroke_is_found_with_drag() {
+    let limits = Limits {
+        angle: 0.8,
+        rate: f64::INFINITY,
+    };
+    let search = Search::new(&braked(DRIVEN, 2.0), Objective::Advance, limits).expect("a search");
+    let own = search.own(&braked(DRIVEN, 2.0), 1).expect("a stroke");
+    let found = search
+        .improve(&own, &|| true)
+        .expect("an evaluation")
+        .expect("a stroke");
+    let rewritten = Swimmer::new(&braked(DRIVEN, 2.0)).expect("a swimmer");
+    let own = Objective::Advance.gain(&rewritten.steady_by(&own).expect("a motion").0);
+    println!("{own} {} by {} evaluations", found.value, found.evaluations);
+    assert!(found.value > 1.05 * own);
+    // Found again from the stroke alone.
+    let again = Objective::Advance.gain(&rewritten.steady_by(&found.stroke).expect("a motion").0);
+    assert!((again - found.value).abs() < 1e-9);
+    let work = Search::new(&braked(DRIVEN, 2.0), Objective::AdvancePerWork, limits);
+    assert!(matches!(work, Err(GaitError::Objective)));
 }
