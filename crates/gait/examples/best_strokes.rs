@@ -7,12 +7,12 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use articulated_fluid::Scene;
-use dvi::{Gauss, Integrator};
 use gait::{
     Chain, Found, Fourier, Limits, Objective, Search, Stroke, Swimmer, Told, net_motion,
     net_with_gradient,
 };
 use lie::{LieGroup, SE3};
+use sim::Method;
 
 /// The search of a scene: by what, within which angle, with how many harmonics.
 struct Task {
@@ -76,7 +76,8 @@ fn costs(scene: &Scene) -> Result<(), Box<dyn Error>> {
     let told = Told::new(swimmer.model())?;
     let known = net_motion(&chain, &told)?;
     let (start, h) = (swimmer.start(), told.period() / f64::from(STEPS));
-    let mut gauss = Gauss::new::<4>(swimmer.model().clone());
+    let method: Method = "gauss-4".parse()?;
+    let mut gauss = method.integrator(swimmer.model().clone());
     let mut end = SE3::identity();
     let stepping = time(|| {
         let mut state = start.clone();
