@@ -32,7 +32,7 @@ fn moved(stroke: &Fourier, k: usize, by: f64) -> Fourier {
 const STEP: f64 = 1e-5;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(10))]
 
     #[test]
     fn the_net_motion_changes_as_its_gradient_says((scene, stroke) in strokes(), pick in 0..1000_usize) {

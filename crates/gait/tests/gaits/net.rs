@@ -109,7 +109,7 @@ fn stepped(scene: &Scene, steps: u32) -> (SE3, f64, f64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(ProptestConfig::with_cases(8))]
 
     /// Both are of high order, and 40 steps of the one err by less than 1e-9 here.
     #[test]
