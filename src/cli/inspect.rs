@@ -32,7 +32,7 @@ Examples:
   lgvi inspect boat.toml --json | jq -r '.reductions[] | select(.taken) | .name'
 
 Keeps:
-  What every motion of the scene keeps. With drives, motors, dampers, drag or thrust it is the energy less their work.
+  What every motion of the scene keeps. With drives, or loads beside weight and springs, it is the energy less their work.
 
 Reductions:
   translation   x leaves the unknowns: the linear momentum is constant, or grows by the weight's impulse

@@ -127,9 +127,8 @@ The keys of a scene:
 {keys}
 A scene that moves in a coordinate plane is stepped in the plane where all numbers out of it are exactly zero; one in a tilted
 plane is stepped in space.
-Nothing acts but weight, buoyancy, springs, motors and dampers in joints, joints that move as told, drag and thrust: other forces
-take the library. Hinge angles have no limits. What moves as told, motors and drag do work: then the summary tells how well
-energy less work is kept. A scene of that kind is stepped by composition-2 where only a --step is given. Under a net weight the bodies speed up, and the energy error grows with their speed: that of lgvi in proportion
+Nothing acts but weight, buoyancy and what has keys above: other forces take the library. Hinge angles have no limits. What moves
+as told and loads do work: then the summary tells how well energy less work is kept. A scene of that kind is stepped by composition-2 where only a --step is given. Under a net weight the bodies speed up, and the energy error grows with their speed: that of lgvi in proportion
 to step and time.
 With --accuracy stages and step are found before the run and then fixed: a step that follows the motion would give up the
 symplectic form, and the bounded energy error with it. A rehearsal goes to --until beside a second run in steps a quarter longer.

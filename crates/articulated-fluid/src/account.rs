@@ -200,7 +200,7 @@ fn translation(model: &ArticulatedBody) -> Reduction {
 
 fn translated(model: &ArticulatedBody) -> &'static str {
     if model.loads.forces.act_on_bodies() {
-        return "drag and thrust change the linear momentum, and drag is not linear in the velocity";
+        return "loads on bodies change the linear momentum, and need not be linear in the velocity";
     }
     match model.net_weight() == Vec3::zero() {
         true => "no force depends on where the bodies are: the linear momentum is constant",

@@ -4,7 +4,8 @@ use dvi::{Context, ContinuousSystem, Path, State};
 use lie::{LieGroup, Vec3};
 
 use crate::lagrangian::Evaluation;
-use crate::loads::{OnBody, Scenery, Twist};
+use crate::loads::Scenery;
+use crate::loads::on_bodies::{BodyLoad, Twist, Wrench};
 use crate::tree::{ArticulatedBody, Configuration};
 
 /// What does work that is no gradient's.
@@ -15,27 +16,8 @@ pub enum DriveKind {
         /// The body that hangs on it.
         body: usize,
     },
-    /// A load, of all bodies that have it.
-    Load(BodyLoad),
-}
-
-/// What acts on bodies beside weight.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BodyLoad {
-    /// Drag, linear and quadratic.
-    Drag,
-    /// Thrust, constant in the body's frame or as told.
-    Thrust,
-}
-
-impl BodyLoad {
-    /// Its name, as in `drag_work`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Drag => "drag",
-            Self::Thrust => "thrust",
-        }
-    }
+    /// The loads of this [name](crate::BodyLoad::name) on all bodies that have one.
+    Loads(&'static str),
 }
 
 /// What the drive of a joint, or of the place of the first one, or a load, has done along a motion.
@@ -76,7 +58,7 @@ impl Port {
 
     /// Of forces on bodies, which are known by their power alone.
     fn on_bodies(
-        wrenches: impl Iterator<Item = OnBody<f64>>,
+        wrenches: impl Iterator<Item = (usize, Wrench<f64>)>,
         twist: impl Fn(usize) -> Twist<f64>,
     ) -> Self {
         let power = wrenches.map(|(i, [force, moment])| {
@@ -96,7 +78,8 @@ impl Port {
 type Ports = [Port; 2];
 
 impl ArticulatedBody {
-    /// The drives of all joints that move as told or have a load, which have done nothing, in the order of the bodies; then drag and thrust.
+    /// The drives of all joints that move as told or have a load, which have done nothing, in the order of the bodies; then the loads on
+    /// bodies, name by name.
     pub fn drives(&self) -> Vec<Drive> {
         let forces = &self.loads.forces;
         let driven = |body: &usize| {
@@ -106,14 +89,14 @@ impl ArticulatedBody {
         };
         let bodies = (0..self.nodes.len()).filter(driven);
         let joints = bodies.map(|body| DriveKind::Joint { body });
-        let drag = (!forces.drags.is_empty()).then_some(DriveKind::Load(BodyLoad::Drag));
-        let thrust = (!forces.thrusts.is_empty()).then_some(DriveKind::Load(BodyLoad::Thrust));
+        let has = |name: &&str| forces.bodies.iter().any(|(_, load)| load.name() == *name);
+        let loads = BodyLoad::names().filter(has).map(DriveKind::Loads);
         let idle = |kind| Drive {
             kind,
             work: 0.0,
             impulse: Vec3::zero(),
         };
-        joints.chain(drag).chain(thrust).map(idle).collect()
+        joints.chain(loads).map(idle).collect()
     }
 
     /// Adds what the [drives](Self::drives) do along a path of this tree's states.
@@ -162,11 +145,9 @@ impl ArticulatedBody {
         let twist = |i: usize| elimination.twist(i);
         let forces = &self.loads.forces;
         let port = |drive: &Drive| match drive.kind {
-            DriveKind::Load(BodyLoad::Drag) => {
-                [Port::on_bodies(forces.drag(twist), twist), Port::unused()]
-            }
-            DriveKind::Load(BodyLoad::Thrust) => {
-                [Port::on_bodies(forces.thrust(*t), twist), Port::unused()]
+            DriveKind::Loads(name) => {
+                let wrenches = forces.on_bodies(name, *t, twist);
+                [Port::on_bodies(wrenches, twist), Port::unused()]
             }
             DriveKind::Joint { body: i } => {
                 let turn = match (self.is_turned(i), forces.in_joint(i)) {

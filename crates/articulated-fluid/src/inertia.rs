@@ -8,7 +8,7 @@ use lie::{Cotangent, Ldl3, SO3, Scalar, Sym3, Vec3};
 
 use crate::error::ModelError;
 use crate::joints::{Damped, HingeFactors, Kinds, Link};
-use crate::loads::Twist;
+use crate::loads::on_bodies::Twist;
 use crate::pose::{Drive, Pose};
 use crate::tree::{ArticulatedBody, Configuration, Identity, Momentum, Velocity};
 

@@ -6,7 +6,6 @@ use dvi::State;
 use lie::{Cotangent, LieGroup, Mat3, Power, Rn, SO3, Tangent, Vec3, VectorSpace};
 
 use crate::error::ModelError;
-use crate::joints::JointKind;
 use crate::node::{Body, Joint};
 use crate::scene::{Mobility, Scene, SceneBody, SceneJoint, StartVelocity};
 use crate::tree::{ArticulatedBody, Configuration, Velocity};
@@ -39,8 +38,10 @@ impl Scene {
         };
         let mobilities = self.on_joints().map(|(.., mobility)| mobility);
         let model = Mobility::load(mobilities, model)?;
-        let model = model.with_drag(&self.all_of(|body| body.drag.as_ref()))?;
-        let model = model.with_thrust(&self.all_of(|body| body.thrust.as_ref()))?;
+        let bodies = self.bodies.iter().enumerate();
+        let loads =
+            bodies.flat_map(|(i, body)| body.loads.iter().map(move |load| (i, load.clone())));
+        let model = model.with_loads_on_bodies(&loads.collect::<Vec<_>>())?;
         if !self.has_weight() {
             return Ok(model);
         }
@@ -48,17 +49,6 @@ impl Scene {
         let model = model.with_gravity(Vec3(self.gravity), &net_masses)?;
         let buoyancy = self.bodies.iter().map(SceneBody::buoyancy_moment);
         model.with_buoyancy(&buoyancy.collect::<Vec<_>>())
-    }
-
-    /// What some bodies have, with their numbers.
-    fn all_of<'a, T: Clone + 'a>(
-        &'a self,
-        of: impl Fn(&'a SceneBody) -> Option<&'a T>,
-    ) -> Vec<(usize, T)> {
-        let bodies = self.bodies.iter().enumerate();
-        bodies
-            .filter_map(|(i, body)| Some((i, of(body)?.clone())))
-            .collect()
     }
 
     /// Whether gravity acts on a body: one that is heavier or lighter than what it displaces, or has its buoyancy elsewhere.
@@ -117,7 +107,7 @@ impl Scene {
         let mut are_roots = vec![true; self.bodies.len()];
         for (i, _, mobility) in self.on_joints() {
             if let Some(is_root) = are_roots.get_mut(i) {
-                *is_root = mobility.kind == JointKind::Ball;
+                *is_root = mobility.kind.is_root();
             }
         }
         let bodies = self.bodies.iter().zip(are_roots);
@@ -127,7 +117,7 @@ impl Scene {
     /// What the hinges start with.
     fn hinges(&self) -> impl Iterator<Item = &Mobility> {
         let all = self.on_joints().map(|(.., mobility)| mobility);
-        all.filter(|mobility| mobility.is_hinge())
+        all.filter(|mobility| mobility.kind.has_angle())
     }
 
     fn configuration(&self) -> Configuration {

@@ -2,7 +2,9 @@
 
 use lie::Vec3;
 
-use crate::scene::Scene;
+use crate::loads::JointLoad;
+use crate::loads::on_bodies::BodyLoad;
+use crate::scene::{Mobility, Scene};
 use crate::tree::ArticulatedBody;
 
 impl ArticulatedBody {
@@ -34,38 +36,32 @@ impl ArticulatedBody {
 impl Scene {
     /// What acts, each with what it acts on.
     pub(crate) fn acts(&self, model: &ArticulatedBody) -> Vec<String> {
-        let bodies = |acts: fn(&crate::scene::SceneBody) -> bool| {
-            let named = self.bodies.iter().filter(|body| acts(body));
-            named.map(|body| &body.name[..]).collect::<Vec<_>>()
-        };
-        let joints = |acts: fn(&crate::scene::Mobility) -> bool| {
-            let named = self.on_joints().filter(|(.., on)| acts(on));
-            named.map(|(_, name, _)| name).collect::<Vec<_>>()
-        };
         let weight = model.gravity().map(|_| "weight".to_owned());
-        let loads = [
-            ("spring in", joints(|on| on.stiffness > 0.0)),
-            ("drive in", joints(|on| on.kind.is_driven())),
-            ("damper in", joints(|on| on.load.damping > 0.0)),
-            ("torque in", joints(|on| on.load.torque.is_some())),
-            ("servo in", joints(|on| on.load.servo.is_some())),
-            (
-                "drag on",
-                bodies(|body| body.drag.is_some_and(|drag| drag.acts())),
-            ),
-            ("thrust on", bodies(|body| body.thrust.is_some())),
-        ];
-        let acting = loads.into_iter().filter(|(_, names)| !names.is_empty());
-        let told = acting.map(|(what, names)| format!("{what} {}", few(&names)));
-        weight.into_iter().chain(told).collect()
+        let in_joints = |what: &str, acts: &dyn Fn(&Mobility) -> bool| {
+            let named = self.on_joints().filter(|(.., on)| acts(on));
+            told(&format!("{what} in"), named.map(|(_, name, _)| name))
+        };
+        let springs = in_joints("spring", &|on| on.stiffness > 0.0);
+        let drives = in_joints("drive", &|on| on.kind.is_driven());
+        let parts = JointLoad::PARTS.iter();
+        let parts = parts.filter_map(|part| in_joints(part.name, &|on| (part.acts)(&on.load)));
+        let on_bodies = BodyLoad::names().filter_map(|load| {
+            let named = self.bodies.iter().filter(|body| body.has_load(load));
+            told(&format!("{load} on"), named.map(|body| &body.name[..]))
+        });
+        let first = [weight, springs, drives].into_iter().flatten();
+        first.chain(parts).chain(on_bodies).collect()
     }
 }
 
-/// The first of the names.
-fn few(names: &[&str]) -> String {
+/// What acts, and the first of the names of what it acts on; none where it acts on nothing.
+fn told<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
     const FEW: usize = 4;
-    match names.len() > FEW {
-        true => format!("{} and {} more", names[..FEW].join(", "), names.len() - FEW),
-        false => names.join(", "),
+    let names: Vec<&str> = names.collect();
+    let few = names[..names.len().min(FEW)].join(", ");
+    match names.len() {
+        0 => None,
+        n if n > FEW => Some(format!("{what} {few} and {} more", n - FEW)),
+        _ => Some(format!("{what} {few}")),
     }
 }

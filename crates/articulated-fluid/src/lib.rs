@@ -39,7 +39,7 @@
 //! [`scene`] reads scenes from files.
 //!
 //! # Joints
-//! A joint is a ball, a hinge, or fixed, or moves as told: [`JointKind`]. [`ArticulatedBody::held`] hangs the first body on the world, at a
+//! [`JointKind`] is what a joint leaves free, or how it moves as told. [`ArticulatedBody::held`] hangs the first body on the world, at a
 //! place that may move. [`motion`] has the time laws. The structure is kept in all of it: steps are symplectic at every time, and the
 //! momentum of a free tree is kept to rounding while its joints are driven. Hinge angles have no limits.
 //!
@@ -72,8 +72,8 @@
 //! ```
 //!
 //! # Loads and work
-//! Beside weight and springs there are torques, dampers and servos in joints ([`JointLoad`]), [`Drag`] and [`Thrust`] on bodies. Those in joints keep
-//! the momentum to rounding; with any of them a step is not symplectic. What drives and loads do is summed along a step's
+//! Beside weight and springs there are torques, dampers and servos in joints ([`JointLoad`]), and loads on bodies, such as drag ([`BodyLoad`]). Those in joints keep the
+//! momentum to rounding; with any of them a step is not symplectic. What drives and loads do is summed along a step's
 //! [`Path`](dvi::Path), at the order of its method: [`ArticulatedBody::drives`], [`ArticulatedBody::add_drives`].
 //!
 //! # Views of a scene
@@ -114,13 +114,14 @@ mod views;
 pub use account::{Account, Reduction};
 pub use conserved::Conserved;
 pub use discrete::StepWorkspace;
-pub use drive::{BodyLoad, Drive, DriveKind};
+pub use drive::{Drive, DriveKind};
 pub use ellipsoid::{Ellipsoid, EllipsoidError};
 pub use error::ModelError;
 pub use joints::{Hinge, JointKind};
 pub use kinematics::Kinematics;
 pub use lagrangian::Evaluation;
-pub use loads::{Drag, JointLoad, Servo, Thrust, Torque};
+pub use loads::on_bodies::*;
+pub use loads::{JointLoad, Servo, Torque};
 pub use motion::Motion;
 pub use node::{Body, Joint};
 pub use scene::{Scene, SceneError};

@@ -2,7 +2,7 @@
 
 use lie::{SO3, Scalar, Vec3};
 
-use crate::motion::{self, Motion};
+use crate::motion::{self, Motion, Timed};
 use crate::tree::{ArticulatedBody, Base, Configuration, Identity};
 
 /// Where the bodies are at a time, and what moves as told.
@@ -144,7 +144,7 @@ impl ArticulatedBody {
     pub fn told_rate(&self, until: f64) -> f64 {
         let place = match &self.base {
             Base::Free => 0.0,
-            Base::Held { place, .. } => motion::rate(place.as_ref(), until),
+            Base::Held { place, .. } => place.rate(until),
         };
         let motions = self.joints.motions.iter().map(|motion| motion.rate(until));
         let all = motions.chain(self.loads.forces.told_rates(until));

@@ -208,7 +208,7 @@ impl ArticulatedBody {
         !(self.moves_as_told() || self.has_forces())
     }
 
-    /// Whether the motion keeps linear and angular momentum, but for the impulse of the weight: no body hangs on the world, and no drag or thrust acts.
+    /// Whether the motion keeps linear and angular momentum, but for the impulse of the weight: no body hangs on the world, and no load acts on a body.
     pub fn keeps_momentum(&self) -> bool {
         self.is_free() && !self.loads.forces.act_on_bodies()
     }

@@ -13,7 +13,7 @@ use crate::schedule::Due;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DriveReport {
-    /// The joint's name; `drag` or `thrust` of all bodies.
+    /// The joint's name; that of the loads on bodies, as `drag`, of all together.
     pub name: String,
     /// From the start on.
     pub work_joules: f64,
@@ -107,7 +107,7 @@ impl Drives {
         let report = |(drive, largest): (&Drive, &[f64; 2])| DriveReport {
             name: match drive.kind {
                 DriveKind::Joint { .. } => joints.next().cloned().unwrap_or_default(),
-                DriveKind::Load(load) => load.name().to_owned(),
+                DriveKind::Loads(name) => name.to_owned(),
             },
             work_joules: drive.work,
             power_max_watts: largest[0],

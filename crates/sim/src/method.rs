@@ -97,7 +97,7 @@ const fn gauss(stages: u32) -> Family {
 
 /// Name, order, family, default step, evaluations in it, description.
 #[rustfmt::skip]
-const TABLE: [Entry; 14] = [
+const TABLE: &[Entry] = &[
     entry("lgvi",            1, VARIATIONAL,     0.001,   2, "the integrator of Lee, Leok & McClamroch (2009)"),
     entry("lgvi-adjoint",    1, ADJOINT,         0.001,   6, "adjoint of lgvi: it looks at the end of a step"),
     entry("composition-2",   2, composition(2),   0.01,  19, "symmetric composition of lgvi and its adjoint, 2 substeps"),
@@ -300,7 +300,8 @@ pub struct UnknownMethod {
 }
 
 fn names() -> String {
-    TABLE.map(|entry| entry.name).join(", ")
+    let names: Vec<_> = Method::all().map(Method::name).collect();
+    names.join(", ")
 }
 
 impl FromStr for Method {

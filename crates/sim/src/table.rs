@@ -38,16 +38,16 @@ enum Read {
     Hinge(fn(&Seen, usize, &mut [f64])),
     /// Of the drive with this number, likewise.
     Drive(fn(&DriveSample, &mut [f64])),
-    /// The work of all loads of a kind, where there are some.
-    Work(BodyLoad),
+    /// Of the loads of one name on all bodies, likewise, with that name and `_` before.
+    Load(fn(&DriveSample, &mut [f64])),
 }
 
-/// The bodies of a scene, the free hinges and the joints with drives, by their names, and which loads there are.
+/// The bodies of a scene, the free hinges and the joints with drives, by their names, and the loads on bodies by theirs.
 struct Names {
     bodies: Vec<String>,
     hinges: Vec<String>,
     drives: Vec<String>,
-    loads: Vec<BodyLoad>,
+    loads: Vec<String>,
 }
 
 type Labels = &'static [&'static str];
@@ -75,6 +75,10 @@ const fn hinge(names: Labels, meaning: &'static str, read: fn(&Seen, usize, &mut
 
 const fn drive(names: Labels, meaning: &'static str, read: fn(&DriveSample, &mut [f64])) -> Column {
     column(names, meaning, Read::Drive(read))
+}
+
+const fn load(names: Labels, meaning: &'static str, read: fn(&DriveSample, &mut [f64])) -> Column {
+    column(names, meaning, Read::Load(read))
 }
 
 const fn extra(column: Column) -> Column {
@@ -112,8 +116,7 @@ pub const COLUMNS: &[Column] = &[
     extra(drive(&["tx", "ty", "tz"], "its mean torque on the child since the row before, in the reference frame, N m", |drive, to| {
         to.copy_from_slice(&drive.torque.0);
     })),
-    column(&["drag_work"], "work of all drag since the start, J, where there is some", Read::Work(BodyLoad::Drag)),
-    column(&["thrust_work"], "work of all thrust since the start, J, where there is some", Read::Work(BodyLoad::Thrust)),
+    load(&["work"], "work of all such loads on bodies since the start, J, where there are some", |load, to| to.fill(load.work)),
     whole(&["energy"], "of bodies and fluid, kinetic and potential, J", |seen, to| to.fill(seen.frame.sample.energy)),
     whole(&["px", "py", "pz"], "linear momentum from the velocities, in the reference frame, kg m/s", |seen, to| {
         to.copy_from_slice(&seen.frame.sample.linear.0);
@@ -140,10 +143,25 @@ impl Column {
     /// The names in short, as `x,y,z` and `NAME.qw,.qx,.qy,.qz`.
     pub fn label(&self) -> String {
         match self.read {
-            Read::Whole(_) | Read::Work(_) => self.names.join(","),
+            Read::Whole(_) => self.names.join(","),
             Read::Body(_) => format!("NAME.{}", self.names.join(",.")),
             Read::Hinge(_) | Read::Drive(_) => format!("JOINT.{}", self.names.join(",.")),
+            Read::Load(_) => {
+                let names = BodyLoad::names().flat_map(|load| self.of(load));
+                names.collect::<Vec<_>>().join(",")
+            }
         }
+    }
+
+    /// The names of its numbers of one of a scene's bodies, joints or loads.
+    fn of(&self, owner: &str) -> impl Iterator<Item = String> {
+        let mark = match self.read {
+            Read::Whole(_) => "",
+            Read::Load(_) => "_",
+            _ => ".",
+        };
+        let names = self.names.iter();
+        names.map(move |name| format!("{owner}{mark}{name}"))
     }
 }
 
@@ -153,18 +171,27 @@ impl Names {
             bodies: scene.bodies.iter().map(|body| body.name.clone()).collect(),
             hinges: scene.free_hinges().map(str::to_owned).collect(),
             drives: scene.driven_joints().map(str::to_owned).collect(),
-            loads: scene.loads_on_bodies().collect(),
+            loads: scene.loads_on_bodies().map(str::to_owned).collect(),
         }
     }
 
     /// What columns are of.
     fn of_column(&self, column: &Column) -> &[String] {
         match column.read {
-            Read::Whole(_) | Read::Work(_) => &[],
+            Read::Whole(_) => &[],
             Read::Body(_) => &self.bodies,
             Read::Hinge(_) => &self.hinges,
             Read::Drive(_) => &self.drives,
+            Read::Load(_) => &self.loads,
         }
+    }
+}
+
+/// The numbers of a drive; not numbers where there is none.
+fn read_drive(read: fn(&DriveSample, &mut [f64]), drive: Option<&DriveSample>, to: &mut [f64]) {
+    match drive {
+        Some(drive) => read(drive, to),
+        None => to.fill(f64::NAN),
     }
 }
 
@@ -173,14 +200,11 @@ fn columns(
     chosen: &[&'static Column],
     names: &Names,
 ) -> impl Iterator<Item = (&'static Column, usize)> {
-    // Both of several columns of bodies side by side, but each load of its own.
     let kind = |column: &Column| core::mem::discriminant(&column.read);
-    let is_load = |column: &Column| matches!(column.read, Read::Work(_));
-    let groups = chosen.chunk_by(move |a, b| kind(a) == kind(b) && !is_load(a));
+    let groups = chosen.chunk_by(move |a, b| kind(a) == kind(b));
     groups.flat_map(move |group| {
         let times = match group[0].read {
             Read::Whole(_) => 1,
-            Read::Work(load) => usize::from(names.loads.contains(&load)),
             _ => names.of_column(group[0]).len(),
         };
         (0..times).flat_map(move |i| group.iter().map(move |column| (*column, i)))
@@ -230,12 +254,8 @@ impl Rows {
     /// The names of the numbers: that of a body or a joint before a dot, where they are of one.
     pub fn names(&self) -> Vec<String> {
         let names = columns(&self.chosen, &self.names).flat_map(|(column, i)| {
-            let of = self.names.of_column(column).get(i);
-            let name = move |name: &&str| match of {
-                None => (*name).to_owned(),
-                Some(of) => format!("{of}.{name}"),
-            };
-            column.names.iter().map(name)
+            let owner = self.names.of_column(column).get(i);
+            column.of(owner.map_or("", |owner| owner))
         });
         names.collect()
     }
@@ -253,15 +273,12 @@ impl Rows {
             match column.read {
                 Read::Whole(read) => read(&seen, to),
                 Read::Body(read) | Read::Hinge(read) => read(&seen, i, to),
-                Read::Work(load) => {
-                    let of_load = |drive: &&DriveSample| drive.kind == DriveKind::Load(load);
-                    let load = frame.drives.iter().find(of_load);
-                    to.fill(load.map_or(f64::NAN, |load| load.work));
+                Read::Drive(read) => read_drive(read, frame.drives.get(i), to),
+                Read::Load(read) => {
+                    let is_load = |drive: &&DriveSample| matches!(drive.kind, DriveKind::Loads(_));
+                    let load = frame.drives.iter().filter(is_load).nth(i);
+                    read_drive(read, load, to);
                 }
-                Read::Drive(read) => match frame.drives.get(i) {
-                    Some(drive) => read(drive, to),
-                    None => to.fill(f64::NAN),
-                },
             }
             rest = after;
         }

@@ -100,14 +100,14 @@ pub struct Arrays {
 impl Arrays {
     /// Arrays without rows for the bodies of a scene.
     pub fn new(scene: &Scene) -> Self {
-        let loads = scene.loads_on_bodies().map(|load| -> &str { load.name() });
         let own = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
         let bodies = scene.bodies.iter().map(|body| &body.name[..]).collect();
+        let drives = scene.driven_joints().chain(scene.loads_on_bodies());
         Self {
             names: [
                 ("bodies", own(bodies)),
                 ("hinges", own(scene.free_hinges().collect())),
-                ("drives", own(scene.driven_joints().chain(loads).collect())),
+                ("drives", own(drives.collect())),
             ],
             frames: 0,
             numbers: COLUMNS.iter().map(|_| vec![]).collect(),

@@ -146,7 +146,7 @@ fn drives(scene: &Scene, motions: &[Motion]) -> Vec<(String, usize)> {
     let name = |(k, kind): (usize, DriveKind)| {
         let name = match kind {
             DriveKind::Joint { .. } => joints.next().unwrap_or_default(),
-            DriveKind::Load(load) => load.name(),
+            DriveKind::Loads(name) => name,
         };
         (name.to_owned(), k)
     };

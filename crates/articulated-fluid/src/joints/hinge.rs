@@ -16,6 +16,16 @@ pub struct Hinge {
 }
 
 impl Hinge {
+    /// About an axis of any length, with this attitude on the parent at the angle 0.
+    pub(crate) fn new(axis: Vec3, rest: SO3) -> Self {
+        let axis = axis * (1.0 / axis.norm());
+        Self {
+            axis,
+            rest,
+            rest_angle: 0.0,
+        }
+    }
+
     /// Whether the axis is a unit vector, the attitude a rotation, and the angle finite.
     pub(crate) fn is_sound(&self) -> bool {
         let off = (self.axis.norm() - 1.0).abs();

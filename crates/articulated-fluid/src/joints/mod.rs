@@ -35,15 +35,16 @@ pub enum JointKind {
     Prescribed(Motion),
 }
 
+/// The words for the kinds in a scene, and what they mean.
+pub(crate) const WORDS: [&str; 2] = [
+    "\"ball\", \"hinge\" or \"fixed\"",
+    "what the joint leaves free: every rotation, the angle about an axis, or nothing",
+];
+
 impl JointKind {
     /// A hinge about an axis of any length in the child's frame; at the angle 0 the child has the attitude `rest` on the parent.
     pub fn hinge(axis: Vec3, rest: SO3) -> Self {
-        let axis = axis * (1.0 / axis.norm());
-        Self::Hinge(Hinge {
-            axis,
-            rest,
-            rest_angle: 0.0,
-        })
+        Self::Hinge(Hinge::new(axis, rest))
     }
 
     /// Whether it moves as told.
@@ -58,6 +59,16 @@ impl JointKind {
 }
 
 impl JointKind {
+    /// Whether the attitude of the child is an unknown.
+    pub(crate) fn is_root(&self) -> bool {
+        matches!(self, Self::Ball)
+    }
+
+    /// Whether an angle is an unknown.
+    pub(crate) fn has_angle(&self) -> bool {
+        matches!(self, Self::Hinge(_))
+    }
+
     /// Whether its numbers make a joint.
     pub(crate) fn is_sound(&self) -> bool {
         match self {

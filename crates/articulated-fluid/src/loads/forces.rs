@@ -3,10 +3,9 @@
 use lie::{Cotangent, Mat3, SO3, Scalar, Vec3};
 
 use super::joint_load::{JointLoad, ToldInJoint};
-use super::servo::Aim;
+use super::on_bodies::{BodyLoad, Twist, Wrench};
 use super::told::Told;
-use super::{Drag, Thrust, Torque};
-use crate::motion;
+use crate::motion::Timed;
 use crate::tree::{ArticulatedBody, Configuration};
 
 /// A joint with a load.
@@ -25,8 +24,8 @@ pub(crate) struct LoadedJoint {
 pub(crate) struct Forces {
     /// In the order of their children.
     pub(crate) joints: Vec<LoadedJoint>,
-    pub(crate) drags: Vec<(usize, Drag)>,
-    pub(crate) thrusts: Vec<(usize, Thrust)>,
+    /// Each with its body, kind by kind in the order of their [names](BodyLoad::names).
+    pub(crate) bodies: Vec<(usize, BodyLoad)>,
 }
 
 /// What forces are told, and storage for their sums.
@@ -52,12 +51,6 @@ pub(crate) struct Scenery<'a, S> {
     pub(crate) g: &'a Configuration<S>,
     pub(crate) r: &'a [SO3<S>],
 }
-
-/// The rate and the velocity of the mass centre of a body, both in its frame.
-pub(crate) type Twist<S> = [Vec3<S>; 2];
-
-/// A body, with a force at its mass centre and a moment about it, both in its frame.
-pub(crate) type OnBody<S> = (usize, [Vec3<S>; 2]);
 
 /// The torque on the child of a joint, and the rate of the child on the parent, in the child's frame.
 pub(crate) struct InJoint<S> {
@@ -91,39 +84,14 @@ impl LoadedJoint {
             }
         };
         let torque = match self.hinge {
-            None => self.on_ball(told, &c, rate),
+            None => self.load.on_ball(told, &c, rate),
             Some((k, axis)) => {
                 let axis = axis.lift();
                 let turning = [at.g.2[k].0[0], axis.dot(rate)];
-                self.on_hinge(told, axis, turning)
+                self.load.on_hinge(told, axis, turning)
             }
         };
         InJoint { torque, rate, c }
-    }
-
-    #[inline(always)]
-    fn on_ball<S: Scalar>(&self, told: &ToldInJoint<S>, c: &Mat3<S>, rate: Vec3<S>) -> Vec3<S> {
-        let sum = told.torque - rate * S::from_f64(self.load.damping);
-        match (&self.load.servo, &told.aim) {
-            (Some(servo), Aim::Ball(target, turning)) => {
-                sum + servo.on_ball((target, *turning), c, rate)
-            }
-            _ => sum,
-        }
-    }
-
-    #[inline(always)]
-    fn on_hinge<S: Scalar>(
-        &self,
-        told: &ToldInJoint<S>,
-        axis: Vec3<S>,
-        turning: [S; 2],
-    ) -> Vec3<S> {
-        let sum = told.torque - axis * turning[1].times(self.load.damping);
-        match (&self.load.servo, &told.aim) {
-            (Some(servo), Aim::Hinge(target)) => sum + axis * servo.on_hinge(*target, turning),
-            _ => sum,
-        }
     }
 }
 
@@ -136,55 +104,36 @@ impl Forces {
 
     /// From when to when each is told, s.
     pub(crate) fn told(&self) -> impl Iterator<Item = [f64; 2]> {
-        let joints = self.joints.iter().flat_map(|joint| {
-            let torque = joint.load.torque.iter().map(Torque::told);
-            let servo = joint.load.servo.iter().map(|servo| servo.target.told());
-            torque.chain(servo)
-        });
-        let thrusts = self.thrusts.iter().map(|(_, thrust)| thrust.force.told());
-        joints.chain(thrusts)
+        let joints = self.joints.iter().flat_map(|joint| joint.load.spans());
+        let laws = self.bodies.iter().filter_map(|(_, load)| load.law());
+        joints.chain(laws.map(Timed::told))
     }
 
     /// From when on each repeats itself, and after how long, s.
     pub(crate) fn repeats(&self) -> impl Iterator<Item = Option<[f64; 2]>> {
-        let joints = self.joints.iter().flat_map(|joint| {
-            let torque = joint.load.torque.iter().map(Torque::repeats);
-            let servo = joint.load.servo.iter().map(|servo| servo.target.repeats());
-            torque.chain(servo)
-        });
-        let thrusts = self
-            .thrusts
-            .iter()
-            .map(|(_, thrust)| thrust.force.repeats());
-        joints.chain(thrusts)
+        let joints = self.joints.iter().flat_map(|joint| joint.load.repeats());
+        let laws = self.bodies.iter().filter_map(|(_, load)| load.law());
+        joints.chain(laws.map(Timed::repeats))
     }
 
     /// How fast each that is told changes, rad/s.
     pub(crate) fn told_rates(&self, until: f64) -> impl Iterator<Item = f64> {
-        let joints = self.joints.iter().flat_map(move |joint| {
-            let torque = joint.load.torque.iter();
-            let torque = torque.map(move |torque| torque.rate(until));
-            let servo = joint.load.servo.iter();
-            torque.chain(servo.map(move |servo| servo.target.rate(until)))
-        });
-        let thrusts = self.thrusts.iter();
-        joints.chain(thrusts.map(move |(_, thrust)| motion::rate(thrust.force.as_ref(), until)))
+        let joints = self.joints.iter();
+        let joints = joints.flat_map(move |joint| joint.load.rates(until));
+        let laws = self.bodies.iter().filter_map(|(_, load)| load.law());
+        joints.chain(laws.map(move |law| law.rate(until)))
     }
 
     /// Whether all that is told is a number at the time `t`.
     pub(crate) fn are_known(&self, t: f64) -> bool {
-        let joints = self.joints.iter().all(|joint| {
-            let torque = joint.load.torque.as_ref();
-            let axis = Vec3([1.0, 0.0, 0.0]);
-            torque.is_none_or(|torque| torque.at(t, axis).is_finite())
-        });
-        let mut thrusts = self.thrusts.iter();
-        joints && thrusts.all(|(_, thrust)| thrust.wrench(t)[0].is_finite())
+        let mut bodies = self.bodies.iter();
+        self.joints.iter().all(|joint| joint.load.is_known(t))
+            && bodies.all(|(_, load)| load.told(t)[0].is_finite())
     }
 
     /// Whether something acts on a body from outside, so that momentum is not kept.
     pub(crate) fn act_on_bodies(&self) -> bool {
-        !(self.drags.is_empty() && self.thrusts.is_empty())
+        !self.bodies.is_empty()
     }
 
     /// Adds the torques about the joints times `scale`; the force on the whole times `scale`, in the reference frame, is returned.
@@ -198,8 +147,8 @@ impl Forces {
         torques: &mut [Cotangent<3, S>],
     ) -> Vec3<S> {
         let joints = self.joints.iter().map(|joint| joint.told(at.t));
-        let thrusts = self.thrusts.iter().map(|(_, thrust)| thrust.wrench(at.t));
-        told.read((tree.identity, at.t), joints, thrusts);
+        let bodies = self.bodies.iter().map(|(_, load)| load.told(at.t));
+        told.read((tree.identity, at.t), joints, bodies);
         let mut add = |i: usize, torque: Vec3<S>| {
             torques[i] = (torques[i].vec3() + torque * scale).into();
         };
@@ -215,11 +164,10 @@ impl Forces {
         }
         work.clear();
         work.resize(tree.nodes.len(), Vec3::zero());
-        let thrusts = self.thrusts.iter().zip(&told.thrusts);
-        let thrusts = thrusts.map(|((i, _), wrench)| (*i, *wrench));
-        for (i, wrench) in self.drag(twist).chain(thrusts) {
-            work[i] += wrench[0];
-            add(i, wrench[1]);
+        for ((i, load), told) in self.bodies.iter().zip(&told.bodies) {
+            let [force, moment] = load.wrench(*told, twist(*i));
+            work[*i] += force;
+            add(*i, moment);
         }
         // (S24): what the levers of the joints make of the forces.
         for (i, node) in tree.nodes.iter().enumerate().rev() {
@@ -241,22 +189,17 @@ impl Forces {
         found.ok().map(|k| &self.joints[k])
     }
 
-    /// Of all drag: the body, the force at its mass centre and the moment about it, in its frame.
-    #[inline(always)]
-    pub(crate) fn drag<S: Scalar>(
+    /// The wrenches of all loads of this name on bodies, each with its body.
+    pub(crate) fn on_bodies(
         &self,
-        twist: impl Fn(usize) -> Twist<S>,
-    ) -> impl Iterator<Item = OnBody<S>> {
-        self.drags.iter().map(move |(i, drag)| {
-            let [omega, v] = twist(*i);
-            (*i, drag.wrench(omega, v))
-        })
-    }
-
-    /// The same of all thrust.
-    #[inline(always)]
-    pub(crate) fn thrust<S: Scalar>(&self, t: S) -> impl Iterator<Item = OnBody<S>> {
-        let thrusts = self.thrusts.iter();
-        thrusts.map(move |(i, thrust)| (*i, thrust.wrench(t)))
+        name: &'static str,
+        t: f64,
+        twist: impl Fn(usize) -> Twist<f64>,
+    ) -> impl Iterator<Item = (usize, Wrench<f64>)> {
+        let loads = self
+            .bodies
+            .iter()
+            .filter(move |(_, load)| load.name() == name);
+        loads.map(move |(i, load)| (*i, load.wrench(load.told(t), twist(*i))))
     }
 }

@@ -1,28 +1,25 @@
 //! What acts on the bodies: each load a file, of what potential it has, or what torques and force it gives.
 
-mod drag;
 mod forces;
 mod gravity;
 mod hinge_spring;
 mod joint_load;
+pub(crate) mod on_bodies;
 mod on_tree;
 mod servo;
 mod size;
 mod spring;
-mod thrust;
 mod told;
 mod torque;
 
 use lie::{Cotangent, Power, Rn, SO3, Scalar, Vec3};
 
-pub use drag::Drag;
-pub(crate) use forces::{ForceWork, Forces, OnBody, Scenery, Twist};
+pub(crate) use forces::{ForceWork, Forces, Scenery};
 pub(crate) use gravity::{Weight, moments};
 pub(crate) use hinge_spring::HingeSprings;
 pub use joint_load::JointLoad;
 pub use servo::Servo;
 pub(crate) use spring::{Spring, Springs};
-pub use thrust::Thrust;
 pub use torque::Torque;
 
 /// The loads of a tree of bodies.

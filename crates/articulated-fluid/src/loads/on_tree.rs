@@ -6,8 +6,8 @@ use super::forces::LoadedJoint;
 use super::gravity::Weight;
 use super::hinge_spring::{HingeSpring, HingeSprings};
 use super::joint_load::JointLoad;
+use super::on_bodies::BodyLoad;
 use super::spring::{Spring, Springs};
-use super::{Drag, Thrust};
 use crate::error::ModelError;
 use crate::joints::Role;
 use crate::tree::{ArticulatedBody, Identity};
@@ -159,32 +159,22 @@ impl ArticulatedBody {
         Ok(self)
     }
 
-    /// The same bodies with drag on some of them.
+    /// The same bodies with these loads on some of them.
     ///
     /// # Errors
     /// [`ModelError::Load`] where there is no such body, or a number is negative or not finite.
-    pub fn with_drag(mut self, drags: &[(usize, Drag)]) -> Result<Self, ModelError> {
-        for (body, drag) in drags {
-            if *body >= self.nodes.len() || !drag.is_sound() {
+    pub fn with_loads_on_bodies(mut self, loads: &[(usize, BodyLoad)]) -> Result<Self, ModelError> {
+        for (body, load) in loads {
+            if *body >= self.nodes.len() || !load.is_sound() {
                 return Err(ModelError::Load { body: *body });
             }
         }
-        let acting = drags.iter().filter(|(_, drag)| drag.acts());
-        self.loads.forces.drags = acting.copied().collect();
-        Ok(self)
-    }
-
-    /// The same bodies with thrust on some of them.
-    ///
-    /// # Errors
-    /// [`ModelError::Load`] where there is no such body, or its point is not finite.
-    pub fn with_thrust(mut self, thrusts: &[(usize, Thrust)]) -> Result<Self, ModelError> {
-        for (body, thrust) in thrusts {
-            if *body >= self.nodes.len() || !thrust.at.is_finite() {
-                return Err(ModelError::Load { body: *body });
-            }
-        }
-        self.loads.forces.thrusts = thrusts.to_vec();
+        let of = |name: &'static str| {
+            let acting = loads.iter().filter(|(_, load)| load.acts());
+            acting.filter(move |(_, load)| load.name() == name)
+        };
+        self.loads.forces.bodies = BodyLoad::names().flat_map(of).cloned().collect();
+        // Storage of the tree before has not read these.
         self.identity = Identity::new();
         Ok(self)
     }

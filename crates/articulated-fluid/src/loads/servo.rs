@@ -1,9 +1,13 @@
 //! A motor that follows a motion, (S22).
 
-use lie::{Mat3, Scalar, Vec3};
+use lie::{Mat3, SO3, Scalar, Vec3};
 
 use super::size::is_size;
+use crate::joints::JointKind;
 use crate::motion::Motion;
+use crate::scene::entry::{Table, Value};
+use crate::scene::error::SceneError;
+use crate::scene::laws;
 
 /// What a servo follows at a time.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +36,27 @@ pub struct Servo {
 }
 
 impl Servo {
+    /// By its keys in a scene, in a joint of this kind.
+    pub(super) fn read(table: &Table, kind: &JointKind) -> Result<Self, SceneError> {
+        let target = table.require("target")?.table()?;
+        let target = match kind {
+            JointKind::Hinge(hinge) => Motion::Hinge {
+                axis: hinge.axis,
+                rest: hinge.rest,
+                angle: laws::law::<1>(&target)?,
+            },
+            _ => Motion::Ball {
+                rest: SO3::identity(),
+                turn: laws::law::<3>(&target)?,
+            },
+        };
+        Ok(Self {
+            stiffness: table.require("kp")?.not_negative()?,
+            damping: table.read("kd", 0.0, Value::not_negative)?,
+            target,
+        })
+    }
+
     /// Whether it is one of a hinge, or of a ball, and its numbers are sound.
     pub(super) fn suits(&self, is_hinge: bool) -> bool {
         let of_hinge = matches!(self.target, Motion::Hinge { .. });

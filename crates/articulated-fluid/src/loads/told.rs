@@ -1,8 +1,9 @@
 //! What loads are told, read once for each time: the iterations of a step come back to the same ones.
 
-use lie::{Scalar, Vec3};
+use lie::Scalar;
 
 use super::joint_load::ToldInJoint;
+use super::on_bodies::Wrench;
 use crate::tree::Identity;
 
 /// What all loads are told.
@@ -12,7 +13,7 @@ pub(crate) struct Told<S> {
     read: Option<(Identity, S)>,
     /// In the order of the loads.
     pub(super) joints: Vec<ToldInJoint<S>>,
-    pub(super) thrusts: Vec<[Vec3<S>; 2]>,
+    pub(super) bodies: Vec<Wrench<S>>,
 }
 
 impl<S> Default for Told<S> {
@@ -20,7 +21,7 @@ impl<S> Default for Told<S> {
         Self {
             read: None,
             joints: Vec::new(),
-            thrusts: Vec::new(),
+            bodies: Vec::new(),
         }
     }
 }
@@ -32,7 +33,7 @@ impl<S: Scalar> Told<S> {
         &mut self,
         key: (Identity, S),
         joints: impl Iterator<Item = ToldInJoint<S>>,
-        thrusts: impl Iterator<Item = [Vec3<S>; 2]>,
+        bodies: impl Iterator<Item = Wrench<S>>,
     ) {
         let known = |(tree, at): (Identity, S)| tree.is(key.0) && at == key.1;
         if self.read.is_some_and(known) {
@@ -40,8 +41,8 @@ impl<S: Scalar> Told<S> {
         }
         self.joints.clear();
         self.joints.extend(joints);
-        self.thrusts.clear();
-        self.thrusts.extend(thrusts);
+        self.bodies.clear();
+        self.bodies.extend(bodies);
         self.read = Some(key);
     }
 }

@@ -4,7 +4,11 @@ use std::sync::Arc;
 
 use lie::{Scalar, Vec3};
 
-use crate::motion::{self, Law};
+use crate::joints::JointKind;
+use crate::motion::{self, Law, Timed};
+use crate::scene::entry::Table;
+use crate::scene::error::SceneError;
+use crate::scene::laws;
 
 /// A torque on the child of a joint, N m; the parent has the opposite one.
 #[derive(Clone, Debug)]
@@ -27,27 +31,19 @@ impl PartialEq for Torque {
 }
 
 impl Torque {
-    /// From when to when it is told, s.
-    pub(crate) fn told(&self) -> [f64; 2] {
-        match self {
-            Self::Hinge(law) => law.told(),
-            Self::Ball(law) => law.told(),
+    /// By its keys in a scene, in a joint of this kind.
+    pub(super) fn read(table: &Table, kind: &JointKind) -> Result<Self, SceneError> {
+        match kind {
+            JointKind::Hinge(_) => laws::law::<1>(table).map(Self::Hinge),
+            _ => laws::law::<3>(table).map(Self::Ball),
         }
     }
 
-    /// From when on it repeats itself, and after how long, s.
-    pub(crate) fn repeats(&self) -> Option<[f64; 2]> {
+    /// What it is told by.
+    pub(super) fn law(&self) -> &dyn Timed {
         match self {
-            Self::Hinge(law) => law.repeats(),
-            Self::Ball(law) => law.repeats(),
-        }
-    }
-
-    /// How fast it changes, rad/s.
-    pub(crate) fn rate(&self, until: f64) -> f64 {
-        match self {
-            Self::Hinge(law) => motion::rate(law.as_ref(), until),
-            Self::Ball(law) => motion::rate(law.as_ref(), until),
+            Self::Hinge(law) => law,
+            Self::Ball(law) => law,
         }
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lie::{LieGroup, Mat3, SO3, Scalar, Tangent, Vec3};
 
-use super::law::{self, Law};
+use super::law::{self, Law, Timed};
 
 /// A prescribed attitude $Q(t)$ of a body relative to its parent, and its rate $a = (Q^T \dot Q)^\vee$, (S1) of the swimming tree.
 #[derive(Clone)]
@@ -75,42 +75,36 @@ impl PartialEq for Motion {
 }
 
 impl Motion {
+    /// What it is told by, if it is a law.
+    fn law(&self) -> Option<&dyn Timed> {
+        match self {
+            Self::Hinge { angle, .. } => Some(angle),
+            Self::Ball { turn, .. } => Some(turn),
+            Self::Fixed(_) | Self::Function(_) => None,
+        }
+    }
+
     /// Whether it does anything: a weld does not, nor a constant law.
     pub fn is_driven(&self) -> bool {
-        match self {
-            Self::Fixed(_) => false,
-            Self::Hinge { angle, .. } => !angle.is_constant(),
-            Self::Ball { turn, .. } => !turn.is_constant(),
-            Self::Function(_) => true,
-        }
+        let moves = matches!(self, Self::Function(_));
+        self.law().map_or(moves, |law| !law.is_constant())
     }
 
     /// From when to when it is [told](Law::told), s.
     pub fn told(&self) -> [f64; 2] {
-        match self {
-            Self::Hinge { angle, .. } => angle.told(),
-            Self::Ball { turn, .. } => turn.told(),
-            Self::Fixed(_) | Self::Function(_) => [f64::NEG_INFINITY, f64::INFINITY],
-        }
+        let always = [f64::NEG_INFINITY, f64::INFINITY];
+        self.law().map_or(always, Timed::told)
     }
 
     /// From when on it [repeats](Law::repeats) itself, and after how long, s.
     pub fn repeats(&self) -> Option<[f64; 2]> {
-        match self {
-            Self::Fixed(_) => Some([0.0; 2]),
-            Self::Hinge { angle, .. } => angle.repeats(),
-            Self::Ball { turn, .. } => turn.repeats(),
-            Self::Function(_) => None,
-        }
+        let still = matches!(self, Self::Fixed(_)).then_some([0.0; 2]);
+        self.law().map_or(still, Timed::repeats)
     }
 
     /// How fast it changes in the first seconds, rad/s.
     pub(crate) fn rate(&self, until: f64) -> f64 {
-        match self {
-            Self::Hinge { angle, .. } => law::rate(angle.as_ref(), until),
-            Self::Ball { turn, .. } => law::rate(turn.as_ref(), until),
-            Self::Fixed(_) | Self::Function(_) => 0.0,
-        }
+        self.law().map_or(0.0, |law| law.rate(until))
     }
 
     /// The angle of a hinge, rad, and its rate; of the others, not a number.

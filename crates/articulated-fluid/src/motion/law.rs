@@ -1,6 +1,7 @@
 //! Numbers over time.
 
 use core::fmt::Debug;
+use std::sync::Arc;
 
 use lie::Scalar;
 
@@ -25,18 +26,46 @@ pub trait Law<const N: usize>: Debug + Send + Sync {
     }
 }
 
-/// How fast a law changes in the first seconds, rad/s: of a sinusoid $2 \pi f$; from its derivatives at many times, where they are known.
-pub(crate) fn rate<const N: usize>(law: &dyn Law<N>, until: f64) -> f64 {
-    const TIMES: u32 = 1024;
-    let largest = |k: u32| {
-        let at = |i: u32| law.derivative(until * f64::from(i) / f64::from(TIMES), k);
-        let all = (0..=TIMES).flat_map(at).map(f64::abs);
-        all.filter(|x| x.is_finite()).fold(0.0, f64::max)
-    };
-    let (first, third) = (largest(1), largest(3));
-    match first > 0.0 {
-        true => (third / first).sqrt(),
-        false => 0.0,
+/// What is asked of a law of any size.
+pub(crate) trait Timed {
+    /// As [`Law::told`].
+    fn told(&self) -> [f64; 2];
+
+    /// As [`Law::repeats`].
+    fn repeats(&self) -> Option<[f64; 2]>;
+
+    /// As [`Law::is_constant`].
+    fn is_constant(&self) -> bool;
+
+    /// How fast it changes in the first seconds, rad/s: of a sinusoid $2 \pi f$; from its derivatives at many times, where they are known.
+    fn rate(&self, until: f64) -> f64;
+}
+
+impl<const N: usize> Timed for Arc<dyn Law<N>> {
+    fn told(&self) -> [f64; 2] {
+        self.as_ref().told()
+    }
+
+    fn repeats(&self) -> Option<[f64; 2]> {
+        self.as_ref().repeats()
+    }
+
+    fn is_constant(&self) -> bool {
+        self.as_ref().is_constant()
+    }
+
+    fn rate(&self, until: f64) -> f64 {
+        const TIMES: u32 = 1024;
+        let largest = |k: u32| {
+            let at = |i: u32| self.derivative(until * f64::from(i) / f64::from(TIMES), k);
+            let all = (0..=TIMES).flat_map(at).map(f64::abs);
+            all.filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
+        let (first, third) = (largest(1), largest(3));
+        match first > 0.0 {
+            true => (third / first).sqrt(),
+            false => 0.0,
+        }
     }
 }
 

@@ -11,7 +11,7 @@ mod spline;
 
 pub use attitude::Motion;
 pub use law::Law;
-pub(crate) use law::{at, rate, value};
+pub(crate) use law::{Timed, at, value};
 pub(crate) use period::common;
 pub use sinusoid::Sinusoid;
 pub use spline::{Ends, Spline, SplineError};

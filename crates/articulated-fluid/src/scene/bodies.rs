@@ -6,7 +6,7 @@ use super::description::SceneBody;
 use super::entry::{Table, Value};
 use super::error::SceneError;
 use super::forms::{self, Surroundings};
-use super::loads;
+use crate::loads::on_bodies::BodyLoad;
 
 /// The parent of a first body that is not free.
 pub(super) const WORLD: &str = "world";
@@ -39,15 +39,26 @@ pub(super) fn check<'a>(
         let body = forms::check(&table, name.text, around)?;
         bodies.push(SceneBody {
             attitude: table.read("attitude", body.attitude, Value::attitude)?,
-            buoyancy_at: loads::buoyancy_at(&table, body.mass().is_some())?,
-            drag: loads::drag(&table)?,
-            thrust: loads::thrust(&table)?,
+            buoyancy_at: buoyancy_at(&table, body.mass().is_some())?,
+            loads: BodyLoad::read_all(&table)?,
             ..body
         });
         names.index.insert(name.text, names.listed.len());
         names.listed.push(name);
     }
     Ok((names, bodies))
+}
+
+/// Where the buoyancy of a body acts.
+fn buoyancy_at(table: &Table, has_mass: bool) -> Result<[f64; 3], SceneError> {
+    match table.get("buoyancy_at") {
+        Some(value) if !has_mass => {
+            let what = "the mass of the displaced fluid is not known; expected mass and volume, or semi_axes";
+            Err(value.fail(what))
+        }
+        Some(value) => value.array(),
+        None => Ok([0.0; 3]),
+    }
 }
 
 fn name<'a>(table: &Table<'a>, earlier: &Names) -> Result<Name<'a>, SceneError> {

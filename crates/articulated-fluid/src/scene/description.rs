@@ -4,9 +4,8 @@ use lie::{Mat3, Vec3};
 
 use super::mobility::Mobility;
 use super::note::Note;
-use crate::drive::BodyLoad;
 use crate::ellipsoid::Ellipsoid;
-use crate::loads::{Drag, Thrust};
+use crate::loads::on_bodies::BodyLoad;
 use crate::motion::{Law, Sinusoid};
 
 /// A difference of mass and displaced mass that is the rounding of density times volume and of the numbers read, relative.
@@ -74,10 +73,8 @@ pub struct SceneBody {
     pub net_mass: f64,
     /// Where its buoyancy acts, from the mass centre in the body's frame, m.
     pub buoyancy_at: [f64; 3],
-    /// What brakes it.
-    pub drag: Option<Drag>,
-    /// What drives it.
-    pub thrust: Option<Thrust>,
+    /// What acts on it beside weight.
+    pub loads: Vec<BodyLoad>,
     /// Initial attitude, body to reference frame: a quaternion $w, x, y, z$ of length 1.
     pub attitude: [f64; 4],
     /// Initial angular velocity in the body frame, rad/s.
@@ -100,8 +97,7 @@ impl SceneBody {
             net_mass: net_mass(mass, shape.neutral_mass(density)),
             coupling: [[0.0; 3]; 3],
             buoyancy_at: [0.0; 3],
-            drag: None,
-            thrust: None,
+            loads: vec![],
             attitude: [1.0, 0.0, 0.0, 0.0],
             angular_velocity: [0.0; 3],
         }
@@ -128,8 +124,7 @@ impl SceneBody {
             net_mass,
             coupling: [[0.0; 3]; 3],
             buoyancy_at: [0.0; 3],
-            drag: None,
-            thrust: None,
+            loads: vec![],
             attitude: [1.0, 0.0, 0.0, 0.0],
             angular_velocity: [0.0; 3],
         }
@@ -141,6 +136,12 @@ impl SceneBody {
             Form::Ellipsoid { semi_axes, .. } => Some(semi_axes),
             Form::Given { shape, .. } => shape,
         }
+    }
+
+    /// Whether a load of this name does anything to it.
+    pub(crate) fn has_load(&self, name: &str) -> bool {
+        let mut loads = self.loads.iter();
+        loads.any(|load| load.name() == name && load.acts())
     }
 
     /// The mass of the displaced fluid times the point where its buoyancy acts, kg m; zero where the body's own mass is not known.
@@ -220,7 +221,7 @@ pub struct SceneMount {
 impl Scene {
     /// The names of the joints that are free hinges, in the order of the model.
     pub fn free_hinges(&self) -> impl Iterator<Item = &str> {
-        let hinges = self.on_joints().filter(|(.., on)| on.is_hinge());
+        let hinges = self.on_joints().filter(|(.., on)| on.kind.has_angle());
         hinges.map(|(_, name, _)| name)
     }
 
@@ -235,16 +236,9 @@ impl Scene {
         self.on_joints().filter(driven).map(|(_, name, _)| name)
     }
 
-    /// What acts on bodies beside weight: drag, thrust.
-    pub fn loads_on_bodies(&self) -> impl Iterator<Item = BodyLoad> {
-        let acts = |drag: &Drag| drag.acts();
-        let drag = self
-            .bodies
-            .iter()
-            .any(|body| body.drag.as_ref().is_some_and(acts));
-        let thrust = self.bodies.iter().any(|body| body.thrust.is_some());
-        let drag = drag.then_some(BodyLoad::Drag);
-        drag.into_iter().chain(thrust.then_some(BodyLoad::Thrust))
+    /// The names of what acts on bodies beside weight, in the order of the [drives](crate::ArticulatedBody::drives).
+    pub fn loads_on_bodies(&self) -> impl Iterator<Item = &'static str> {
+        BodyLoad::names().filter(|name| self.bodies.iter().any(|body| body.has_load(name)))
     }
 
     /// The bodies on joints in their order, with the joint's name and what it leaves free.

@@ -12,7 +12,7 @@ use super::source::{Reads, Source, quote};
 
 /// A table or a value of a file.
 #[derive(Clone)]
-pub(super) struct Entry<'a, T> {
+pub(crate) struct Entry<'a, T> {
     source: &'a Source<'a>,
     /// Its dotted path.
     key: String,
@@ -23,9 +23,9 @@ pub(super) struct Entry<'a, T> {
     inner: &'a T,
 }
 
-pub(super) type Table<'a> = Entry<'a, DeTable<'a>>;
+pub(crate) type Table<'a> = Entry<'a, DeTable<'a>>;
 
-pub(super) type Value<'a> = Entry<'a, DeValue<'a>>;
+pub(crate) type Value<'a> = Entry<'a, DeValue<'a>>;
 
 impl<'a, T> Entry<'a, T> {
     /// The error `message`.
@@ -71,7 +71,7 @@ impl<'a, T> Entry<'a, T> {
 
 impl<'a> Table<'a> {
     /// The file's own table, with no key that is not documented.
-    pub fn root(source: &'a Source<'a>, inner: &'a DeTable<'a>) -> Result<Self, SceneError> {
+    pub(super) fn root(source: &'a Source<'a>, inner: &'a DeTable<'a>) -> Result<Self, SceneError> {
         let root = Self {
             source,
             key: String::new(),
@@ -191,7 +191,7 @@ impl<'a> Value<'a> {
     }
 
     /// What reads the file at such a path.
-    pub fn reads(&self) -> &'a Reads<'a> {
+    pub(super) fn reads(&self) -> &'a Reads<'a> {
         self.source.reads
     }
 

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::joints;
+
 /// The documentation of one key of a scene file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 #[non_exhaustive]
@@ -246,7 +248,7 @@ pub const KEYS: &[Key] = &[
         "joint",
         "one table [[joint]] for each body but the first",
         "none, for a body alone",
-        "a joint: a ball, a hinge or a weld, free or moved as told; one more may hang the first body on the world",
+        "a joint, free or moved as told; one more may hang the first body on the world",
     ),
     key(
         "joint.name",
@@ -278,12 +280,7 @@ pub const KEYS: &[Key] = &[
         REQUIRED,
         "the joint from the child's mass centre, in the child's frame",
     ),
-    key(
-        "joint.type",
-        "\"ball\", \"hinge\" or \"fixed\"",
-        "\"ball\"",
-        "what the joint leaves free: every rotation, the angle about an axis, or nothing",
-    ),
+    key("joint.type", joints::WORDS[0], "\"ball\"", joints::WORDS[1]),
     key(
         "joint.axis",
         "an array of 3 finite numbers, not all 0",

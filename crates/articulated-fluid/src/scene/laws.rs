@@ -9,7 +9,7 @@ use super::source::Reads;
 use crate::motion::{Ends, Law, Sinusoid, Spline, SplineError};
 
 /// A law that may be shared.
-pub(super) type Shared<const N: usize> = Arc<dyn Law<N>>;
+pub(crate) type Shared<const N: usize> = Arc<dyn Law<N>>;
 
 /// A gait, as one of its joints sees it.
 #[derive(Clone)]
@@ -70,7 +70,7 @@ where
 }
 
 /// A sinusoid, or a spline through the rows of a table.
-pub(super) fn law<const N: usize>(table: &Table) -> Result<Shared<N>, SceneError>
+pub(crate) fn law<const N: usize>(table: &Table) -> Result<Shared<N>, SceneError>
 where
     Sinusoid<N>: Law<N>,
 {

@@ -12,7 +12,7 @@
 //! of length 1 to 1e-3 is normalised, and [`Scene::notes`] says so. Anything further off is refused.
 //!
 //! The bodies form a tree: the first body is its root, the head, and every other one hangs by exactly
-//! one joint on a body that is listed before it. A joint is a ball, a hinge or fixed, or moves as told; the
+//! one joint on a body that is listed before it. A joint leaves its child some motion free, or moves it as told; the
 //! first body may hang on `"world"`. Any body may be the first: a free tree on ball joints is stepped on its heaviest one.
 //!
 //! A scene that moves in a coordinate plane, with all numbers out of the plane exactly zero, is stepped
@@ -20,13 +20,12 @@
 
 mod bodies;
 mod description;
-mod entry;
-mod error;
+pub(crate) mod entry;
+pub(crate) mod error;
 mod forms;
 mod joints;
 mod keys;
-mod laws;
-mod loads;
+pub(crate) mod laws;
 mod matrices;
 mod mobility;
 mod note;

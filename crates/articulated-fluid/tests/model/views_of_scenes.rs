@@ -33,8 +33,7 @@ fn scene(sample: &Sample, velocity: StartVelocity) -> Scene {
             net_mass,
             coupling: [[0.0; 3]; 3],
             buoyancy_at: [0.0; 3],
-            drag: None,
-            thrust: None,
+            loads: vec![],
             attitude: r.to_quaternion(),
             angular_velocity: rate.0,
         });

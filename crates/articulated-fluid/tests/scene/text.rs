@@ -37,14 +37,17 @@ fn broken_syntax_is_refused() {
 
 #[test]
 fn unknown_keys_are_refused_with_the_allowed_ones() {
+    let of_body = KEYS.iter().filter_map(|key| key.path.strip_prefix("body."));
+    let of_body: Vec<_> = of_body.filter(|key| !key.contains('.')).collect();
+    assert!(
+        ["name", "mass", "drag"]
+            .iter()
+            .all(|key| of_body.contains(key))
+    );
+    let of_body = of_body.join("`, `");
+    let message = format!("f.toml:10:1: body.mas: unknown key; expected one of `{of_body}`");
     assert_refused(&[
-        (
-            "mass = 90",
-            "mas = 90",
-            "f.toml:10:1: body.mas: unknown key; expected one of `name`, `semi_axes`, `mass`, \
-             `inertia`, `added_mass`, `added_inertia`, `volume`, `total_mass`, `total_inertia`, \
-             `shape`, `buoyancy_at`, `drag`, `thrust`, `attitude`, `angular_velocity`, `joint_rate`",
-        ),
+        ("mass = 90", "mas = 90", &message[..]),
         (
             "density = 1000",
             "density = 1000\n  viscosity = 1",

@@ -14,7 +14,6 @@ fn paper() -> (ArticulatedBody, State<Configuration>) {
 #[test]
 fn names_are_read_as_they_are_written() {
     let names: Vec<_> = Method::all().map(Method::name).collect();
-    assert_eq!(names.len(), 14);
     for method in Method::all() {
         assert_eq!(method.to_string().parse(), Ok(method));
         assert_eq!(

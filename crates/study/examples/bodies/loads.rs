@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use articulated_fluid::motion::Sinusoid;
 use articulated_fluid::{
-    ArticulatedBody, Body, Drag, Joint, JointKind, JointLoad, ModelError, Motion, Servo, Thrust,
-    Torque,
+    ArticulatedBody, Body, BodyLoad, Drag, Joint, JointKind, JointLoad, ModelError, Motion, Servo,
+    Thrust, Torque,
 };
 use dvi::{Gauss, Variational};
 use lie::{Mat3, SO3, Vec3};
@@ -49,8 +49,8 @@ pub fn by_loads(n: usize) -> Result<(), Box<dyn std::error::Error>> {
                 },
             )
         }),
-        ("drag", drag),
-        ("thrust", thrust),
+        ("drag", |tree| on_bodies(tree, &[drag()])),
+        ("thrust", |tree| on_bodies(tree, &[thrust()])),
         ("all", all),
     ];
     println!(
@@ -118,29 +118,31 @@ fn weight(tree: ArticulatedBody) -> Result<ArticulatedBody, ModelError> {
     tree.with_gravity(Vec3([0.0, 0.0, -9.81]), &net)
 }
 
-fn drag(tree: ArticulatedBody) -> Result<ArticulatedBody, ModelError> {
-    let drag = Drag {
+fn on_bodies(tree: ArticulatedBody, loads: &[BodyLoad]) -> Result<ArticulatedBody, ModelError> {
+    let bodies = 0..tree.bodies().len();
+    let all = bodies.flat_map(|i| loads.iter().map(move |load| (i, load.clone())));
+    tree.with_loads_on_bodies(&all.collect::<Vec<_>>())
+}
+
+fn drag() -> BodyLoad {
+    BodyLoad::Drag(Drag {
         linear: [0.1, 0.5, 0.5],
         quadratic: [0.2, 4.0, 2.5],
         angular_linear: [0.01, 0.1, 0.1],
         smooth_below: 0.01,
         ..Drag::default()
-    };
-    let bodies = 0..tree.bodies().len();
-    tree.with_drag(&bodies.map(|i| (i, drag)).collect::<Vec<_>>())
+    })
 }
 
-fn thrust(tree: ArticulatedBody) -> Result<ArticulatedBody, ModelError> {
-    let thrust = Thrust {
+fn thrust() -> BodyLoad {
+    BodyLoad::Thrust(Thrust {
         force: law([0.01, 0.0, 0.02]),
         at: Vec3([-1.0, 0.1, 0.0]),
-    };
-    let bodies = 0..tree.bodies().len();
-    tree.with_thrust(&bodies.map(|i| (i, thrust.clone())).collect::<Vec<_>>())
+    })
 }
 
 fn all(tree: ArticulatedBody) -> Result<ArticulatedBody, ModelError> {
-    let tree = springs(weight(thrust(drag(tree)?)?)?)?;
+    let tree = springs(weight(on_bodies(tree, &[drag(), thrust()])?)?)?;
     let load = JointLoad {
         damping: 0.1,
         torque: Some(torque()),

@@ -6,7 +6,7 @@ use core::fmt;
 use core::str::FromStr;
 
 use articulated_fluid::scene::{Form, SceneBody, StartVelocity};
-use articulated_fluid::{Ellipsoid, EllipsoidError, ModelError, Scene};
+use articulated_fluid::{BodyLoad, Ellipsoid, EllipsoidError, ModelError, Scene};
 use serde::Serialize;
 use sim::number::decimal;
 use thiserror::Error;
@@ -270,8 +270,8 @@ fn stretch_body(body: &mut SceneBody, density: f64, value: f64) -> Result<usize,
             body.total_inertia = made.total_inertia;
             body.net_mass = made.net_mass;
             body.buoyancy_at[longest] *= value;
-            if let Some(thrust) = &mut body.thrust {
-                thrust.at.0[longest] *= value;
+            for point in body.loads.iter_mut().filter_map(BodyLoad::point_mut) {
+                point.0[longest] *= value;
             }
             Ok(longest)
         }

@@ -1,6 +1,7 @@
 //! What the baselines declare of themselves, measured on the paper's scene; names.
 
 use dvi::{Integrator, laws};
+use sim::Method;
 use study::contender::{Contender, Control, Failure, Problem, Setting, UnknownContender};
 use study::work_precision::{Errors, Reference, SAMPLES};
 
@@ -48,7 +49,8 @@ fn adaptive_pairs_work_at_their_order() {
 #[test]
 fn names_are_read_as_they_are_written() {
     let names: Vec<_> = Contender::all().map(Contender::name).collect();
-    assert_eq!(names.len(), 21);
+    assert!(Method::all().all(|method| names.contains(&method.name())));
+    // A name that two have is read as the first of them.
     for contender in Contender::all() {
         assert_eq!(contender.to_string().parse(), Ok(contender));
     }

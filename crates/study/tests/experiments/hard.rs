@@ -11,7 +11,7 @@ use sim::{Method, Sample, Watch};
 use study::baseline::{Tolerance, on_group};
 use study::contender::{Contender, Problem};
 
-/// A scene, and what each of [`Method::all`] makes of it: `G` must step, `-` may refuse.
+/// A scene, and what each of [`METHODS`] makes of it: `G` must step, `-` may refuse.
 struct Hard {
     name: &'static str,
     /// In which the fastest body turns by a radian or its velocity changes by itself, s.
@@ -54,7 +54,30 @@ const fn hard(name: &'static str, radian: f64, outcomes: [&'static str; 3]) -> H
     }
 }
 
-/// In each row lgvi and its adjoint, compositions of order 2 to 8, Gauss of 1 to 8 stages.
+/// The methods of each row.
+const METHODS: [&str; 14] = [
+    "lgvi",
+    "lgvi-adjoint",
+    "composition-2",
+    "composition-4",
+    "composition-6",
+    "composition-8",
+    "gauss-1",
+    "gauss-2",
+    "gauss-3",
+    "gauss-4",
+    "gauss-5",
+    "gauss-6",
+    "gauss-7",
+    "gauss-8",
+];
+
+/// Whether a method must step, as a row has it; one that is in no row must take its own step, and may refuse longer ones.
+fn must_step(method: Method, step: Step, row: &str) -> bool {
+    let place = METHODS.iter().position(|name| *name == method.name());
+    place.map_or(step == Step::Own, |place| &row[place..=place] == "G")
+}
+
 #[rustfmt::skip]
 const TABLE: [Hard; 14] = [
     hard("needle",          0.2,   ["GGGGGGGGGGGGGG", "GGGGGG--------", "--------------"]),
@@ -296,6 +319,7 @@ fn every_hard_scene_has_a_row() {
 
 #[test]
 fn every_method_is_good_or_refuses() {
+    assert!(METHODS.iter().all(|name| name.parse::<Method>().is_ok()));
     let (mut cells, mut refusals, mut faults) = (0, 0, Vec::new());
     for Hard {
         name,
@@ -307,14 +331,16 @@ fn every_method_is_good_or_refuses() {
         problem.until = *radian;
         for (step, expected) in Step::ALL.into_iter().zip(outcomes) {
             let mut found = String::new();
-            assert_eq!(Method::all().count(), expected.len(), "{name}");
-            for (method, expected) in Method::all().zip(expected.chars()) {
+            assert_eq!(METHODS.len(), expected.len(), "{name}");
+            for method in Method::all() {
                 let theta = step.theta(method);
                 let outcome = run(&problem, method, *radian, step);
                 cells += 1;
                 refusals += u32::from(outcome.refused.is_some());
                 found.push(if outcome.refused.is_some() { '-' } else { 'G' });
-                let broken = outcome.refused.filter(|_| expected == 'G');
+                let broken = outcome
+                    .refused
+                    .filter(|_| must_step(method, step, expected));
                 let broken = broken.map(|error| error.to_string());
                 let wrong = outcome.wrong.into_iter().chain(broken);
                 faults

@@ -4,7 +4,11 @@ use std::sync::Arc;
 
 use lie::{Scalar, Vec3};
 
-use crate::motion::{self, Law};
+use super::Wrench;
+use crate::motion::{self, Law, Sinusoid};
+use crate::scene::entry::{Table, Value};
+use crate::scene::error::SceneError;
+use crate::scene::laws;
 
 /// A force at a point of a body.
 #[derive(Clone, Debug)]
@@ -23,9 +27,22 @@ impl PartialEq for Thrust {
 }
 
 impl Thrust {
+    pub(super) const NAME: &str = "thrust";
+
+    /// By its keys in a scene.
+    pub(super) fn read(table: &Table) -> Result<Self, SceneError> {
+        let force = table.require("force")?;
+        let force = match force.is_table() {
+            true => laws::law::<3>(&force.table()?)?,
+            false => Arc::new(Sinusoid::constant(force.array()?)),
+        };
+        let at = Vec3(table.read("at", [0.0; 3], Value::array)?);
+        Ok(Self { force, at })
+    }
+
     /// The force and the moment about the mass centre.
     #[inline(always)]
-    pub(super) fn wrench<S: Scalar>(&self, t: S) -> [Vec3<S>; 2] {
+    pub(super) fn wrench<S: Scalar>(&self, t: S) -> Wrench<S> {
         let force = Vec3(motion::value(self.force.as_ref(), t));
         [force, self.at.lift::<S>().cross(force)]
     }

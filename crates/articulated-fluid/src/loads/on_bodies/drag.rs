@@ -2,7 +2,10 @@
 
 use lie::{Scalar, Vec3};
 
-use super::size::is_size;
+use super::{Twist, Wrench};
+use crate::loads::size::is_size;
+use crate::scene::entry::{Table, Value};
+use crate::scene::error::SceneError;
 
 /// Drag of a body along and about its axes: $f_a = -(c_a + q_a |V_a|) V_a$ and $m_a = -(r_a + s_a |\Omega_a|) \Omega_a$ at its mass centre.
 ///
@@ -23,6 +26,20 @@ pub struct Drag {
 }
 
 impl Drag {
+    pub(super) const NAME: &str = "drag";
+
+    /// By its keys in a scene.
+    pub(super) fn read(table: &Table) -> Result<Self, SceneError> {
+        let numbers = |key: &str| table.read(key, [0.0; 3], Value::not_negative_array);
+        Ok(Self {
+            linear: numbers("linear")?,
+            quadratic: numbers("quadratic")?,
+            angular_linear: numbers("angular_linear")?,
+            angular_quadratic: numbers("angular_quadratic")?,
+            smooth_below: table.read("smooth_below", 0.0, Value::not_negative)?,
+        })
+    }
+
     /// Whether no number is negative or not finite.
     pub(super) fn is_sound(&self) -> bool {
         self.numbers().flatten().all(|x| is_size(*x)) && is_size(self.smooth_below)
@@ -41,7 +58,7 @@ impl Drag {
 
     /// The force and the moment on a body with these rates and this velocity, all in its frame.
     #[inline(always)]
-    pub(super) fn wrench<S: Scalar>(&self, omega: Vec3<S>, v: Vec3<S>) -> [Vec3<S>; 2] {
+    pub(super) fn wrench<S: Scalar>(&self, [omega, v]: Twist<S>) -> Wrench<S> {
         let speed = |x: S| {
             let below = self.smooth_below;
             match below == 0.0 {
