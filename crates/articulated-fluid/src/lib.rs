@@ -117,7 +117,7 @@ pub use discrete::StepWorkspace;
 pub use drive::{Drive, DriveKind};
 pub use ellipsoid::{Ellipsoid, EllipsoidError};
 pub use error::ModelError;
-pub use joints::{Hinge, JointKind};
+pub use joints::*;
 pub use kinematics::Kinematics;
 pub use lagrangian::Evaluation;
 pub use loads::on_bodies::*;

@@ -102,7 +102,8 @@ impl Arrays {
     pub fn new(scene: &Scene) -> Self {
         let own = |names: Vec<&str>| names.into_iter().map(str::to_owned).collect();
         let bodies = scene.bodies.iter().map(|body| &body.name[..]).collect();
-        let drives = scene.driven_joints().chain(scene.loads_on_bodies());
+        let loads = scene.loads_on_bodies().map(|name| -> &str { name });
+        let drives = scene.driven_joints().chain(loads);
         Self {
             names: [
                 ("bodies", own(bodies)),
