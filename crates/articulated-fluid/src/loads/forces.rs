@@ -165,7 +165,7 @@ impl Forces {
         work.clear();
         work.resize(tree.nodes.len(), Vec3::zero());
         for ((i, load), told) in self.bodies.iter().zip(&told.bodies) {
-            let [force, moment] = load.wrench(*told, twist(*i));
+            let [force, moment] = load.wrench(*told, || twist(*i));
             work[*i] += force;
             add(*i, moment);
         }
@@ -200,6 +200,6 @@ impl Forces {
             .bodies
             .iter()
             .filter(move |(_, load)| load.name() == name);
-        loads.map(move |(i, load)| (*i, load.wrench(load.told(t), twist(*i))))
+        loads.map(move |(i, load)| (*i, load.wrench(load.told(t), || twist(*i))))
     }
 }

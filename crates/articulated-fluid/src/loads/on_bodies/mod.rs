@@ -95,9 +95,13 @@ impl BodyLoad {
 
     /// Its wrench, of what it is told and of the body's motion.
     #[inline(always)]
-    pub(super) fn wrench<S: Scalar>(&self, told: Wrench<S>, twist: Twist<S>) -> Wrench<S> {
+    pub(super) fn wrench<S: Scalar>(
+        &self,
+        told: Wrench<S>,
+        twist: impl FnOnce() -> Twist<S>,
+    ) -> Wrench<S> {
         match self {
-            Self::Drag(drag) => drag.wrench(twist),
+            Self::Drag(drag) => drag.wrench(twist()),
             Self::Thrust(_) => told,
         }
     }
