@@ -47,7 +47,7 @@ pub fn best_gait(
     let (scene, text) = (scene.shared(), scene.text().to_owned());
     let search = move |desk: &crate::attend::Desk| -> Result<Best, GaitError> {
         let search = Search::new(&scene, objective, Limits { angle, rate })?;
-        let own = search.own(&scene, order)?;
+        let own = search.own(order)?;
         let go_on = || !desk.is_stopped();
         let found =
             search.from_starts(&own, starts, &mut |done| desk.reach(done as f64), &go_on)?;
@@ -61,8 +61,8 @@ pub fn best_gait(
             .iter()
             .map(|found| found.as_ref().map(|found| found.value));
         Ok((
-            with_stroke(&text, search.chain(), &best.stroke)?,
-            objective.of(search.chain(), &own)?,
+            with_stroke(&text, search.chain(), &best.stroke, search.from())?,
+            search.value(&own)?,
             best.value,
             values.collect(),
             found.iter().flatten().map(|found| found.evaluations).sum(),

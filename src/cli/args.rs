@@ -9,6 +9,8 @@ use thiserror::Error;
 pub enum ValueError {
     #[error("expected a finite number > 0, in seconds")]
     Seconds,
+    #[error("expected a finite number > 0, in rad or rad/s")]
+    Angle,
     #[error("expected a finite number >= 0, in kg/m^3: 1000 of water, 0 of a vacuum")]
     Density,
     #[error(
@@ -27,6 +29,11 @@ pub fn seconds(text: &str) -> Result<f64, ValueError> {
     let value = text.parse().map_err(|_| ValueError::Seconds)?;
     let valid = f64::is_finite(value) && value > 0.0;
     valid.then_some(value).ok_or(ValueError::Seconds)
+}
+
+/// An angle in rad, or a rate in rad/s: finite and positive.
+pub fn angle(text: &str) -> Result<f64, ValueError> {
+    seconds(text).map_err(|_| ValueError::Angle)
 }
 
 /// An error to stay below: positive, and one that can be exceeded.

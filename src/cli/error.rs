@@ -62,7 +62,6 @@ pub enum CliError {
     Interrupted { t: f64, signal: usize },
     #[error("interrupted; the best stroke so far is written")]
     BestSoFar { signal: usize },
-    #[cfg(feature = "chart")]
     #[error("interrupted; nothing was written")]
     Stopped { signal: usize },
     #[cfg(feature = "chart")]
@@ -138,7 +137,6 @@ impl CliError {
             },
             Self::BestSoFar { signal } => signalled(*signal),
             Self::Interrupted { signal, .. } => signalled(*signal),
-            #[cfg(feature = "chart")]
             Self::Stopped { signal } => signalled(*signal),
             _ => FAILURE,
         })

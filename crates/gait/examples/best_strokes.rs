@@ -38,7 +38,6 @@ const TASKS: [Task; 2] = [
 ];
 
 const STARTS: u64 = 10;
-const LIMIT_OF_RATE: f64 = f64::INFINITY;
 
 fn main() -> Result<(), Box<dyn Error>> {
     for task in &TASKS {
@@ -75,7 +74,7 @@ fn costs(scene: &Scene) -> Result<(), Box<dyn Error>> {
     let swimmer = Swimmer::new(scene)?;
     let told = Told::new(swimmer.model())?;
     let known = net_motion(&chain, &told)?;
-    let (start, h) = (swimmer.start(), told.period() / f64::from(STEPS));
+    let (start, h) = (swimmer.start()?, told.period() / f64::from(STEPS));
     let method: Method = "gauss-4".parse()?;
     let mut gauss = method.integrator(swimmer.model().clone());
     let mut end = SE3::identity();
@@ -112,14 +111,14 @@ fn costs(scene: &Scene) -> Result<(), Box<dyn Error>> {
 fn search(scene: &Scene, task: &Task) -> Result<(), Box<dyn Error>> {
     let limits = Limits {
         angle: task.angle,
-        rate: LIMIT_OF_RATE,
+        rate: f64::INFINITY,
     };
     let search = Search::new(scene, task.objective, limits)?;
-    let own = search.own(scene, task.order)?;
+    let own = search.own(task.order)?;
     let begin = Instant::now();
     let found = search.from_starts(&own, STARTS, &mut |_| (), &|| true)?;
     let spent = begin.elapsed();
-    let own = task.objective.of(search.chain(), &own)?;
+    let own = search.value(&own)?;
     let values: Vec<String> = found.iter().map(told).collect();
     let best = found
         .iter()

@@ -10,7 +10,9 @@ use crate::tree::Tree;
 /// Halvings of the interval of the contact function's maximum, at which the function is flat.
 const HALVINGS: usize = 30;
 
-/// The pairs of a scene's bodies that have a shape: how much they overlap, recorded once.
+/// The pairs of a scene's bodies that have semi-axes: how much they overlap, recorded once.
+///
+/// Left out are discs, bodies that are welded together, and pairs that overlap where all coordinates are zero.
 pub(crate) struct Clearance {
     pairs: Vec<Pair>,
 }
@@ -32,10 +34,18 @@ impl Clearance {
         let shapes: Vec<(usize, [f64; 3])> = shapes.collect();
         let each = shapes.iter().enumerate();
         let pairs = each.flat_map(|(k, b)| shapes[..k].iter().map(move |a| [*a, *b]));
-        let pairs = pairs.map(|pair| Pair::new(tree, pair));
-        Ok(Self {
-            pairs: pairs.collect::<Result<_, _>>()?,
-        })
+        let moves = pairs.filter(|[a, b]| tree.cluster(a.0) != tree.cluster(b.0));
+        let mut pairs: Vec<Pair> = moves
+            .map(|pair| Pair::new(tree, pair))
+            .collect::<Result<_, _>>()?;
+        let rest = vec![0.0; tree.dim()];
+        let mut apart = Vec::with_capacity(pairs.len());
+        for pair in pairs.drain(..) {
+            if pair.overlap(&rest)?.0 < 0.0 {
+                apart.push(pair);
+            }
+        }
+        Ok(Self { pairs: apart })
     }
 
     /// How many pairs there are.

@@ -23,7 +23,8 @@ impl Effort {
         }
     }
 
-    /// The effort of a stroke, by the trapezoidal rule at `samples` times; what is smooth converges faster than any power.
+    /// The effort of a stroke, by the trapezoidal rule at `samples` times. What is smooth converges faster than any power; where a
+    /// power changes its sign, or all rates vanish, the rule is of order 2.
     ///
     /// # Errors
     /// [`GaitError::Shape`].

@@ -26,7 +26,7 @@ pub enum GaitError {
     Rigid,
     /// What is told never repeats itself.
     #[error(
-        "what moves the joints never repeats itself: a table without `repeat = true`, or frequencies without a common period"
+        "what moves the joints never repeats itself: give tables `repeat = true`, and frequencies a common period"
     )]
     NotPeriodic,
     /// What is told is constant.
@@ -40,7 +40,7 @@ pub enum GaitError {
     },
     /// Coefficients that make no stroke.
     #[error(
-        "{found} coefficients of order {order}; expected finite numbers, 1 + 2 * order of each coordinate"
+        "{found} coefficients of order {order}; give 1 + 2 * order finite numbers for each coordinate"
     )]
     Coefficients {
         /// How many were given.
@@ -63,7 +63,7 @@ pub enum GaitError {
     Step(dvi::StepError),
     /// No steady stroke was found.
     #[error(
-        "no steady stroke was found: after a period the motion is still off by {residual:e}; give the bodies drag, or another start"
+        "no steady stroke was found: after a period the motion is still off by {residual:e}; take more drag, or a smaller stroke"
     )]
     NotSteady {
         /// How far the state is from itself after a period.
@@ -79,7 +79,9 @@ pub enum GaitError {
     #[error("no stroke within the limits was found; allow larger angles or rates, or more starts")]
     NoStroke,
     /// A shape or a stroke of another number of coordinates.
-    #[error("{found} numbers; this chain expects {expected}")]
+    #[error(
+        "{found} numbers where this chain has {expected}; give a stroke of as many coordinates"
+    )]
     Shape {
         /// How many there should be.
         expected: usize,
@@ -90,17 +92,74 @@ pub enum GaitError {
     #[error("the formulas could not be recorded: {0}")]
     Trace(trace::TraceError),
     /// Height functions of another number of coordinates.
-    #[error("height functions are maps of two shape coordinates; this scene has {found}")]
+    #[error(
+        "height functions are maps of two shape coordinates, and this scene has {found}; let two hinges move"
+    )]
     NotTwo {
         /// How many there are.
         found: usize,
     },
     /// A stroke that encloses no area.
-    #[error("one of the two shape coordinates does not move; height functions need a loop")]
+    #[error(
+        "one of the two shape coordinates stays where it is; let both move, so that the stroke is a loop"
+    )]
     Thin,
     /// An objective that is not known of a scene.
     #[error(
         "with loads the positive work of the joints alone is not known; take advance, advance-per-length or turn"
     )]
     Objective,
+    /// Gravity acts.
+    #[error(
+        "a weight is left that turns or moves the swimmer; make the bodies neutrally buoyant, or leave gravity out"
+    )]
+    Weight,
+    /// A momentum where there must be none.
+    #[error("the swimmer has a momentum, which is kept; set start.momentum = \"zero\"")]
+    Momentum,
+    /// One coordinate without loads.
+    #[error(
+        "one shape coordinate leads nowhere without drag: it opens and shuts; let a second joint move"
+    )]
+    Scallop,
+    /// Too many harmonics.
+    #[error("order {order}; give at most {most} harmonics")]
+    Order {
+        /// What was asked for.
+        order: usize,
+        /// The most there may be.
+        most: usize,
+    },
+    /// Too few harmonics.
+    #[error("{order} harmonics miss {part:.1e} of the scene's stroke; give more of them")]
+    Harmonics {
+        /// How many there are.
+        order: usize,
+        /// The largest difference over the largest angle.
+        part: f64,
+    },
+    /// More strokes than a path can tell.
+    #[error("{strokes} strokes; give at most {most}")]
+    Strokes {
+        /// What was asked for.
+        strokes: u32,
+        /// The most there may be.
+        most: u32,
+    },
+    /// A search that is too large.
+    #[error(
+        "{limits} limits on {unknowns} coefficients are too many for the search; take fewer harmonics or bodies"
+    )]
+    TooLarge {
+        /// The limits, at all times.
+        limits: usize,
+        /// The coefficients.
+        unknowns: usize,
+    },
+    /// Something is no number.
+    #[error("the {quantity} of the stroke is not a finite number; check the sizes in the scene")]
+    NotFinite {
+        /// What.
+        quantity: &'static str,
+    },
 }

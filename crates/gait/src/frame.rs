@@ -25,7 +25,7 @@ pub(crate) struct Region {
     pub(crate) half: [f64; 2],
 }
 
-/// A frame of the swimmer that moves with its shape: $g' = g\, b(q)$ with $b = \exp \sum_k \beta_k \varphi_k(q)$.
+/// Minimum-perturbation coordinates: a frame of the swimmer that moves with its shape, $g' = g\, b(q)$ with $b = \exp \sum_k \beta_k \varphi_k(q)$.
 ///
 /// Its connection is $A'_j = \mathrm{Ad}_{b^{-1}} A_j - b^{-1} \partial_j b$. The coefficients make $\int |A'|^2$ over the region least, in which a
 /// turn counts by the radius of gyration: then little is left that does not commute, which is what the area rule leaves out.

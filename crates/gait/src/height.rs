@@ -12,10 +12,12 @@ use crate::stroke::Stroke;
 const POINTS: usize = 61;
 /// Points of the stroke.
 const OF_STROKE: usize = 240;
+/// A coordinate that moves less, rad, does not move.
+const LEAST: f64 = 1e-6;
 /// The rectangle of a map is larger than the stroke by so much on each side, relative.
 const AROUND: f64 = 0.25;
 
-/// The height functions around a stroke of two coordinates, with the stroke on them.
+/// The height functions, or constraint curvatures, around a stroke of two coordinates, without momentum and loads.
 ///
 /// A height is $-F$ with $F = \partial_1 A_2 - \partial_2 A_1 - [A_1, A_2]$, in the body coordinates that make the connection least over the
 /// map. A small loop from the first coordinate to the second moves the swimmer by its height times its area; of a larger one that is
@@ -102,7 +104,7 @@ fn around(chain: &Chain, stroke: &dyn Stroke) -> Result<(Region, Vec<[f64; 2]>),
         |k: usize, of: fn(f64, f64) -> f64| points.iter().map(|q| q[k]).reduce(of).unwrap_or(0.0);
     let [low, high] = [f64::min, f64::max].map(|of| [end(0, of), end(1, of)]);
     let half = [0, 1].map(|k| 0.5 * (1.0 + 2.0 * AROUND) * (high[k] - low[k]));
-    match half.iter().all(|half| *half > 0.0) {
+    match half.iter().all(|half| *half > LEAST) {
         true => Ok((
             Region {
                 centre: [0, 1].map(|k| 0.5 * (low[k] + high[k])),

@@ -83,7 +83,7 @@ pub use net::{net_motion, path};
 pub use objective::{Objective, STROKES};
 pub use report::{NetMotion, Report, Swims};
 pub use rewrite::with_stroke;
-pub use screw::{Screw, power};
+pub use screw::{Screw, repeated};
 pub use search::{Found, Limits, Search};
 pub use steady::Steady;
 pub use stroke::{Fourier, Stroke, Told};

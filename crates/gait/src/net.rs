@@ -70,7 +70,7 @@ pub fn path(chain: &Chain, stroke: &dyn Stroke, intervals: usize) -> Result<Vec<
 
 /// The net motion of a period, of a stroke without momentum.
 ///
-/// The parts of the period are halved until the motion changes by less than `1e-13` of its size; where it does not come so far, as of a
+/// The parts of the period are halved until the motion changes by less than `1e-13`, in rad, and in m or of its size; where it does not come so far, as of a
 /// spline, the last is given.
 ///
 /// # Errors
@@ -83,7 +83,7 @@ pub fn net_motion(chain: &Chain, stroke: &dyn Stroke) -> Result<SE3, GaitError> 
     while intervals < MOST {
         intervals *= 2;
         let finer: SE3 = end(intervals)?;
-        let change = distance(&g, &finer);
+        let change = distance(&g, &finer, 1.0);
         g = finer;
         if change < 1e-13 * (1.0 + g.translation.norm()) {
             break;
@@ -92,9 +92,9 @@ pub fn net_motion(chain: &Chain, stroke: &dyn Stroke) -> Result<SE3, GaitError> 
     Ok(g)
 }
 
-/// How far two motions are apart, m and rad.
-pub(crate) fn distance(a: &SE3, b: &SE3) -> f64 {
+/// How far two motions are apart, rad and lengths.
+pub(crate) fn distance(a: &SE3, b: &SE3, length: f64) -> f64 {
     let change = a.inverse().compose(b);
     let turned = change.rotation.matrix().skew_vee().norm();
-    change.translation.norm().max(turned)
+    (change.translation.norm() / length).max(turned)
 }

@@ -6,16 +6,22 @@ use crate::chain::Chain;
 use crate::effort::Effort;
 use crate::error::GaitError;
 use crate::gradient::net_with_gradient;
-use crate::net::path;
-use crate::screw::power;
+use crate::net::{net_motion, path};
+use crate::screw::repeated;
 use crate::stroke::Fourier;
 
 /// The strokes over which the distance counts: a swimmer that turns comes less far.
 pub const STROKES: u32 = 10;
 
-/// Parts of the period in which the net motion is found, and times at which an effort is.
-const PARTS: usize = 32;
-const SAMPLES: usize = 64;
+/// Parts of the period in which the net motion of a stroke is found.
+fn parts(stroke: &Fourier) -> usize {
+    (8 * stroke.order()).max(32)
+}
+
+/// Times at which its effort is: several in the shortest wave.
+fn samples(stroke: &Fourier) -> usize {
+    (32 * (stroke.order() + 1)).max(64)
+}
 
 /// What the best stroke has most of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +32,7 @@ pub enum Objective {
     AdvancePerLength,
     /// That over the [positive work](Effort::Work) of the stroke, m/J.
     AdvancePerWork,
-    /// The turn of a stroke, rad.
+    /// The turn of a stroke, rad, up to a half turn.
     Turn,
 }
 
@@ -70,13 +76,22 @@ impl Objective {
     /// What a stroke without momentum has of it.
     ///
     /// # Errors
-    /// [`GaitError::Shape`].
+    /// [`GaitError::Shape`], and [`GaitError::Still`] where an effort is asked for and nothing moves.
     pub fn of(self, chain: &Chain, stroke: &Fourier) -> Result<f64, GaitError> {
-        let g = path(chain, stroke, PARTS)?[PARTS];
+        let g = path(chain, stroke, parts(stroke))?[parts(stroke)];
         let gained = self.gain(&g);
         match self.effort() {
             None => Ok(gained),
-            Some(effort) => Ok(gained / effort.of(chain, stroke, SAMPLES)?),
+            Some(effort) => over(gained, effort.of(chain, stroke, samples(stroke))?),
+        }
+    }
+
+    /// The same by rules so fine that finer ones change it by less than a part in a million.
+    pub(crate) fn finely(self, chain: &Chain, stroke: &Fourier) -> Result<f64, GaitError> {
+        let gained = self.gain(&net_motion(chain, stroke)?);
+        match self.effort() {
+            None => Ok(gained),
+            Some(effort) => over(gained, effort.of(chain, stroke, 16 * samples(stroke))?),
         }
     }
 
@@ -89,7 +104,11 @@ impl Objective {
         chain: &Chain,
         stroke: &Fourier,
     ) -> Result<(f64, Vec<f64>), GaitError> {
-        self.of_motion(chain, stroke, net_with_gradient(chain, stroke, PARTS)?)
+        self.of_motion(
+            chain,
+            stroke,
+            net_with_gradient(chain, stroke, parts(stroke))?,
+        )
     }
 
     /// The same of a net motion that is known with its derivatives.
@@ -104,8 +123,8 @@ impl Objective {
         let Some(effort) = self.effort() else {
             return Ok((gained, slopes.collect()));
         };
-        let (spent, costs) = effort.with_gradient(chain, stroke, SAMPLES)?;
-        let value = gained / spent;
+        let (spent, costs) = effort.with_gradient(chain, stroke, samples(stroke))?;
+        let value = over(gained, spent)?;
         let slopes = slopes.zip(costs);
         let slopes = slopes.map(|(slope, cost)| (slope - value * cost) / spent);
         Ok((value, slopes.collect()))
@@ -130,9 +149,17 @@ impl Objective {
     }
 }
 
+/// A gain over an effort, of a stroke that moves.
+fn over(gained: f64, spent: f64) -> Result<f64, GaitError> {
+    match spent > 0.0 {
+        true => Ok(gained / spent),
+        false => Err(GaitError::Still),
+    }
+}
+
 /// $|d_n| / n$ of $g^n$. With $\eta = g^{-1} \delta g$ it is $g^{-n} \delta g^n = \sum_{k < n} \mathrm{Ad}_{g^{-k}} \eta$.
 fn distance(g: &SE3) -> (f64, Cotangent<6>) {
-    let end = power(g, STROKES);
+    let end = repeated(g, STROKES);
     let far = end.translation.norm();
     let n = f64::from(STROKES);
     let along = end.translation * (1.0 / (n * far.max(f64::MIN_POSITIVE)));

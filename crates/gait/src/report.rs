@@ -9,12 +9,14 @@ use crate::chain::Chain;
 use crate::effort::Effort;
 use crate::error::GaitError;
 use crate::net::net_motion;
-use crate::screw::{Screw, power};
+use crate::screw::Screw;
 use crate::stroke::Stroke;
 use crate::swimmer::Swimmer;
 
-/// A momentum below this, relative to the sum of the bodies', counts as zero.
-const NO_MOMENTUM: f64 = 1e-12;
+/// A displacement below this part of the swimmer's length is rounding.
+const NOWHERE: f64 = 1e-11;
+/// The most strokes of a path.
+const MOST_STROKES: u32 = 100_000;
 /// The standard acceleration of gravity, m/s².
 const GRAVITY: f64 = 9.80665;
 /// How little the positive work may change with twice as many samples, relative.
@@ -43,7 +45,7 @@ pub struct NetMotion {
     pub axis: [f64; 3],
     /// The advance along the axis, m.
     pub advance_metres: f64,
-    /// The displacement of the first body's mass centre, m.
+    /// The displacement of the first body's mass centre, m, in its frame at the start of the stroke.
     pub displacement_metres: [f64; 3],
     /// The radius of the helix that repeated strokes lead along, m; 0 of a straight way.
     pub radius_metres: f64,
@@ -86,7 +88,8 @@ pub struct Report {
     pub positive_work_joules: f64,
     /// At how many times the power was looked at; half as many change the work by less than a part in a million, unless they are 4096.
     pub samples: usize,
-    /// $W_+ / (m g |d|)$ with the bodies' own mass and the displacement; none where a mass is not known.
+    /// $W_+ / (m g |d|)$ with the bodies' own mass and the displacement; none where a mass is not known, or the
+    /// stroke leads nowhere.
     pub cost_of_transport: Option<f64>,
     /// The length of the stroke in the metric of the kinetic energy, m √kg; none where joints are free.
     pub length: Option<f64>,
@@ -104,10 +107,15 @@ impl Report {
     /// # Errors
     /// [`GaitError`].
     pub fn of(scene: &Scene, strokes: u32) -> Result<Self, GaitError> {
+        if strokes > MOST_STROKES {
+            let most = MOST_STROKES;
+            return Err(GaitError::Strokes { strokes, most });
+        }
         let swimmer = Swimmer::new(scene)?;
         let chain = match Chain::new(scene) {
             Ok(chain) => Some(chain),
             Err(GaitError::Free { .. }) => None,
+            Err(GaitError::Rigid) if swimmer.is_loaded() => None,
             Err(error) => return Err(error),
         };
         let told = swimmer.told();
@@ -115,13 +123,13 @@ impl Report {
             .as_ref()
             .map(|chain| net_motion(chain, told))
             .transpose()?;
-        let swims = match (&chain, swimmer.is_loaded(), has_momentum(&swimmer)) {
+        let swims = match (&chain, swimmer.is_loaded(), swimmer.has_momentum()) {
             (Some(_), false, false) => Swims::WithoutMomentum,
             (Some(_), false, true) => Swims::WithMomentum,
             _ => Swims::Steadily,
         };
         let mut multipliers = Vec::new();
-        let (mut start, mut net) = (swimmer.start(), geometric.unwrap_or_default());
+        let (mut start, mut net) = (swimmer.start()?, geometric.unwrap_or_default());
         if swims == Swims::Steadily {
             let (steady, _) = swimmer.steady()?;
             (start, net, multipliers) = (steady.state, steady.net, steady.multipliers);
@@ -132,9 +140,12 @@ impl Report {
             }
             _ => converged(|samples| Ok(stepped(&swimmer, &start, samples)?.1))?,
         };
-        let mut path: Vec<SE3> = (0..=strokes).map(|n| power(&net, n)).collect();
+        let mut path = vec![SE3::identity()];
+        for n in 0..strokes as usize {
+            path.push(path[n].compose(&net));
+        }
         if swims == Swims::WithMomentum {
-            path = several(&swimmer, strokes.max(1))?;
+            path = several(&swimmer, &start, strokes.max(1))?;
             net = path[1];
             path.truncate(strokes as usize + 1);
         }
@@ -151,36 +162,13 @@ impl Report {
             dynamic: geometric.map(|part| NetMotion::of(&net.compose(&part.inverse()))),
             positive_work_joules: positive,
             samples,
-            cost_of_transport: cost(scene, positive, net.translation),
+            cost_of_transport: cost(scene, positive, net.translation, swimmer.length()),
             length: length.transpose()?.map(|(length, _)| length),
             multipliers,
             stable,
             path_metres: path.iter().map(|g| g.translation.0).collect(),
         })
     }
-}
-
-/// Whether the whole has a momentum, beside what the bodies have.
-fn has_momentum(swimmer: &Swimmer) -> bool {
-    let state = swimmer.start();
-    let model = swimmer.model();
-    let (Ok(kept), Ok(xi)) = (model.conserved(&state), model.velocity(&state)) else {
-        return true;
-    };
-    let Ok(moving) = model.kinematics(state.t, &state.g, &xi) else {
-        return true;
-    };
-    let spin = kept.angular - state.g.1[0].vec3().cross(kept.linear);
-    let bodies = model.bodies().zip(&moving.rates).zip(&moving.centres);
-    let each = bodies.map(|((body, rate), centre)| {
-        let speed = rate.norm() * (*centre - moving.base).norm() + moving.velocity.norm();
-        [
-            body.mass.frobenius() * speed,
-            body.inertia.frobenius() * rate.norm(),
-        ]
-    });
-    let [linear, angular] = each.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
-    kept.linear.norm() > NO_MOMENTUM * linear || spin.norm() > NO_MOMENTUM * (angular + linear)
 }
 
 /// Steps a period: the net motion, and the positive work of the drives, which each step counts by its sum.
@@ -214,9 +202,13 @@ fn stepped(
 }
 
 /// Where each of several strokes with a momentum leads from the start.
-fn several(swimmer: &Swimmer, strokes: u32) -> Result<Vec<SE3>, GaitError> {
+fn several(
+    swimmer: &Swimmer,
+    start: &State<Configuration>,
+    strokes: u32,
+) -> Result<Vec<SE3>, GaitError> {
     const STEPS: u32 = 60;
-    let mut state = swimmer.start();
+    let mut state = start.clone();
     let at = |state: &State<Configuration>| SE3::new(state.g.0[0], state.g.1[0].vec3());
     let first = at(&state).inverse();
     let mut gauss = Gauss::new::<8>(swimmer.system());
@@ -237,6 +229,10 @@ fn several(swimmer: &Swimmer, strokes: u32) -> Result<Vec<SE3>, GaitError> {
 /// A figure by so many samples that half as many change it by less than a part in a million.
 fn converged(of: impl Fn(usize) -> Result<f64, GaitError>) -> Result<(f64, usize), GaitError> {
     let (mut samples, mut found) = (FIRST_SAMPLES, of(FIRST_SAMPLES)?);
+    if !found.is_finite() {
+        let quantity = "work";
+        return Err(GaitError::NotFinite { quantity });
+    }
     while samples < MOST_SAMPLES {
         samples *= 2;
         let finer = of(samples)?;
@@ -250,9 +246,9 @@ fn converged(of: impl Fn(usize) -> Result<f64, GaitError>) -> Result<(f64, usize
 }
 
 /// $W_+ / (m g |d|)$.
-fn cost(scene: &Scene, positive: f64, displacement: Vec3) -> Option<f64> {
+fn cost(scene: &Scene, positive: f64, displacement: Vec3, length: f64) -> Option<f64> {
     let masses: Option<Vec<f64>> = scene.bodies.iter().map(|body| body.mass()).collect();
     let mass: f64 = masses?.iter().sum();
     let far = displacement.norm();
-    (far > 0.0).then(|| positive / (mass * GRAVITY * far))
+    (far > NOWHERE * length).then(|| positive / (mass * GRAVITY * far))
 }

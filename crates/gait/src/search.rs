@@ -1,9 +1,10 @@
 //! The best stroke: by sequential quadratic programming (SLSQP), from many starts.
 //!
-//! The gradients are exact and the limits many: a stroke is held within them at several times. D. Kraft's method takes both. It needs
+//! The gradients are exact. The limits are many: they hold at several times of a stroke. D. Kraft's method takes both. It needs
 //! some tens of evaluations, where methods without gradients need thousands.
 
 use core::cell::RefCell;
+use core::f64::consts::PI;
 
 use articulated_fluid::Scene;
 use slsqp::{Func, StopTols};
@@ -12,7 +13,7 @@ use crate::chain::Chain;
 use crate::clearance::Clearance;
 use crate::error::GaitError;
 use crate::objective::Objective;
-use crate::stroke::{Fourier, Stroke, Told};
+use crate::stroke::{Fourier, Stroke};
 use crate::swimmer::Swimmer;
 use crate::tree::Moving;
 
@@ -26,15 +27,15 @@ const MOST: usize = 500;
 pub struct Limits {
     /// The largest angle of a hinge, or turn of a ball from rest, rad.
     pub angle: f64,
-    /// The largest rate of the coordinates of a joint together, rad/s.
+    /// The largest rate of a joint, rad/s: of a ball that of its rotation vector.
     pub rate: f64,
 }
 
 /// A search for the best stroke of a chain.
 pub struct Search {
     chain: Chain,
-    /// Where loads act: then the net motion is that of the steady stroke.
-    loaded: Option<Swimmer>,
+    /// Where loads act, the net motion is that of its steady stroke.
+    swimmer: Swimmer,
     clearance: Clearance,
     objective: Objective,
     limits: Limits,
@@ -61,33 +62,59 @@ struct Evaluated {
     limits: Vec<(f64, Vec<f64>)>,
 }
 
+impl Evaluated {
+    /// The same where nothing changes.
+    fn at_an_end(mut self) -> Self {
+        self.gradient.fill(0.0);
+        self
+    }
+
+    /// A value that is worse.
+    fn worse(mut self) -> Self {
+        self.value -= 1.0 + self.value.abs();
+        self
+    }
+}
+
 impl Search {
     /// The search for a stroke of a scene, whose joints all move as told and whose bodies do not overlap.
     ///
-    /// With drag, thrust or weight it is for the best steady stroke, whose gradient is by first variations through the steps.
+    /// With drag or thrust it is for the best steady stroke, whose gradient is by first variations through the steps.
     ///
     /// # Errors
-    /// [`GaitError`] as of [`Chain::new`] and [`Swimmer::new`]; [`GaitError::Limits`] where a limit is not positive;
+    /// [`GaitError`] as of [`Chain::new`] and [`Swimmer::new`]; [`GaitError::Limits`] of a limit that is not positive, or an angle above
+    /// $\pi$; without loads [`GaitError::Momentum`], and [`GaitError::Scallop`] of one coordinate;
     /// [`GaitError::Objective`] of the work where loads act, as they do work too.
     pub fn new(scene: &Scene, objective: Objective, limits: Limits) -> Result<Self, GaitError> {
-        if !(limits.angle > 0.0 && limits.rate > 0.0 && limits.angle.is_finite()) {
-            return Err(GaitError::Limits {
-                angle: limits.angle,
-                rate: limits.rate,
-            });
+        let Limits { angle, rate } = limits;
+        if !(angle > 0.0 && angle <= PI && rate > 0.0) {
+            return Err(GaitError::Limits { angle, rate });
         }
-        let chain = Chain::new(scene)?;
-        let loaded = Some(Swimmer::new(scene)?).filter(Swimmer::is_loaded);
-        if loaded.is_some() && objective == Objective::AdvancePerWork {
-            return Err(GaitError::Objective);
+        let (chain, swimmer) = (Chain::new(scene)?, Swimmer::new(scene)?);
+        match (swimmer.is_loaded(), objective) {
+            (true, Objective::AdvancePerWork) => return Err(GaitError::Objective),
+            (false, _) if swimmer.has_momentum() => return Err(GaitError::Momentum),
+            (false, _) if chain.dim() < 2 => return Err(GaitError::Scallop),
+            _ => (),
         }
         Ok(Self {
             clearance: Clearance::of(scene, chain.tree())?,
             chain,
-            loaded,
+            swimmer,
             objective,
             limits,
         })
+    }
+
+    /// What a stroke has of the objective; with loads the steady one.
+    ///
+    /// # Errors
+    /// [`GaitError`]; [`GaitError::NotSteady`] where there is no steady stroke.
+    pub fn value(&self, stroke: &Fourier) -> Result<f64, GaitError> {
+        match self.swimmer.is_loaded() {
+            false => self.objective.finely(&self.chain, stroke),
+            true => Ok(self.evaluate(stroke)?.value),
+        }
     }
 
     /// The chain.
@@ -95,13 +122,21 @@ impl Search {
         &self.chain
     }
 
-    /// The scene's own stroke, as far as so many harmonics tell it.
+    /// The scene's own stroke, by so many harmonics.
     ///
     /// # Errors
-    /// [`GaitError::NotPeriodic`], [`GaitError::Still`].
-    pub fn own(&self, scene: &Scene, order: usize) -> Result<Fourier, GaitError> {
-        let model = scene.model().map_err(GaitError::Model)?;
-        Fourier::fit(&Told::new(&model)?, order)
+    /// [`GaitError::Order`] of too many, [`GaitError::Harmonics`] where they miss more than a thousandth of it.
+    pub fn own(&self, order: usize) -> Result<Fourier, GaitError> {
+        let own = Fourier::fit(self.swimmer.told(), order)?;
+        match own.misses(self.swimmer.told()) {
+            part if part > 1e-3 => Err(GaitError::Harmonics { order, part }),
+            _ => Ok(own),
+        }
+    }
+
+    /// When the scene's stroke begins, s.
+    pub fn from(&self) -> f64 {
+        self.swimmer.told().from()
     }
 
     /// The best strokes near the scene's own one and near random ones, `starts` in all; the same ones each time. `None` where no stroke
@@ -149,50 +184,56 @@ impl Search {
 
     /// The best stroke near another one. `go_on` is asked before each evaluation; once it says no, the best until then is given.
     ///
-    /// `None` where no stroke within the limits was met.
+    /// `None` where no stroke within the limits was met, or none that is steady. The limits hold at `8 (K + 1)` times of the stroke; between
+    /// them they may be exceeded by some 3 %.
     ///
     /// # Errors
-    /// [`GaitError::Shape`] of a start of another number of coordinates.
+    /// [`GaitError::Shape`] of a start of another number of coordinates; [`GaitError::TooLarge`] of too many limits.
     pub fn improve(
         &self,
         start: &Fourier,
         go_on: &dyn Fn() -> bool,
     ) -> Result<Option<Found>, GaitError> {
-        let first = self.evaluate(start)?;
-        let last: RefCell<Option<Evaluated>> = RefCell::new(None);
+        let first = match self.evaluate(start) {
+            Err(GaitError::Step(_) | GaitError::NotSteady { .. } | GaitError::Still) => {
+                return Ok(None);
+            }
+            first => first?,
+        };
+        check_size(start.coefficients().len(), first.limits.len())?;
+        let last: RefCell<Evaluated> = RefCell::new(first.clone());
         let best: RefCell<Option<Found>> = RefCell::new(None);
         let count = RefCell::new(0);
-        let scale = 1.0 / first.value.abs().max(f64::MIN_POSITIVE);
+        let scale = 1.0 / first.value.abs().max(self.least());
         let evaluated = |x: &[f64]| -> Evaluated {
-            if let Some(known) = last.borrow().as_ref().filter(|known| known.at == x) {
-                return known.clone();
-            }
-            if !go_on()
-                && let Some(known) = last.borrow().as_ref()
-            {
-                // Nothing changes any more, which ends the search.
-                let mut known = known.clone();
-                known.gradient.fill(0.0);
+            let known = last.borrow().clone();
+            let is_first = *count.borrow() == 0;
+            if known.at == x && !is_first {
                 return known;
             }
+            if !go_on() && !is_first {
+                // Nothing changes any more, which ends the search.
+                return known.at_an_end();
+            }
             *count.borrow_mut() += 1;
-            let Ok(found) = self.evaluate(&start.with(x)) else {
-                // Its shape is the start's, which could be evaluated.
-                return first.clone();
+            let found = match known.at == x {
+                true => known,
+                false => match self.evaluate(&start.with(x)) {
+                    Ok(found) => found,
+                    // No steady stroke so far away: worse than the last, so that the search comes back.
+                    Err(_) => return known.worse(),
+                },
             };
             let allowed = found.limits.iter().all(|(value, _)| *value <= SLACK);
-            let before = best
-                .borrow()
-                .as_ref()
-                .map_or(f64::NEG_INFINITY, |best| best.value);
-            if allowed && found.value > before {
+            let before = best.borrow().as_ref().map(|best: &Found| best.value);
+            if allowed && before.is_none_or(|before| found.value > before) {
                 *best.borrow_mut() = Some(Found {
                     stroke: start.with(x),
                     value: found.value,
                     evaluations: 0,
                 });
             }
-            *last.borrow_mut() = Some(found.clone());
+            *last.borrow_mut() = found.clone();
             found
         };
         let objective = |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
@@ -217,7 +258,9 @@ impl Search {
         let limits: Vec<_> = (0..first.limits.len()).map(limit).collect();
         let limits: Vec<&dyn Func<()>> =
             limits.iter().map(|limit| limit as &dyn Func<()>).collect();
-        let bounds = vec![(-self.limits.angle, self.limits.angle); start.coefficients().len()];
+        // A wave within ±a may have harmonics of 4 a / π.
+        let most = 4.0 / PI * self.limits.angle;
+        let bounds = vec![(-most, most); start.coefficients().len()];
         let stop = StopTols {
             ftol_rel: 1e-10,
             ..StopTols::default()
@@ -233,25 +276,33 @@ impl Search {
             Some(stop),
         );
         let evaluations = *count.borrow();
-        let best = best.into_inner();
-        Ok(best.map(|found| Found {
+        let Some(found) = best.into_inner() else {
+            return Ok(None);
+        };
+        Ok(Some(Found {
+            value: self.value(&found.stroke)?,
             evaluations,
             ..found
         }))
     }
 
+    /// What counts as nothing of the objective.
+    fn least(&self) -> f64 {
+        1e-9 * self.chain.tree().gyration(&vec![0.0; self.chain.dim()])
+    }
+
     fn evaluate(&self, stroke: &Fourier) -> Result<Evaluated, GaitError> {
-        let (value, gradient) = match &self.loaded {
-            None => self.objective.with_gradient(&self.chain, stroke)?,
-            Some(swimmer) => match swimmer.steady_by(stroke) {
-                Ok(motion) => self.objective.of_motion(&self.chain, stroke, motion)?,
-                // There is none so far away: the search has to come back.
-                Err(GaitError::Step(_) | GaitError::NotSteady { .. }) => {
-                    (0.0, vec![0.0; stroke.coefficients().len()])
-                }
-                Err(error) => return Err(error),
-            },
+        let (value, gradient) = match self.swimmer.is_loaded() {
+            false => self.objective.with_gradient(&self.chain, stroke)?,
+            true => {
+                let motion = self.swimmer.steady_by(stroke)?;
+                self.objective.of_motion(&self.chain, stroke, motion)?
+            }
         };
+        if !(value.is_finite() && gradient.iter().all(|slope| slope.is_finite())) {
+            let quantity = "objective";
+            return Err(GaitError::NotFinite { quantity });
+        }
         Ok(Evaluated {
             at: stroke.coefficients().to_vec(),
             value,
@@ -283,6 +334,19 @@ impl Search {
             }
         }
         Ok(limits)
+    }
+}
+
+/// Refuses what the optimiser's memory, whose size it counts in 32 bits, would not hold.
+fn check_size(unknowns: usize, limits: usize) -> Result<(), GaitError> {
+    let (n, m) = (unknowns as f64, limits as f64);
+    let memory = (3.0 * (n + 1.0) + m) * (n + 2.0)
+        + (n + 2.0) * (m + 2.0 * n + 4.0)
+        + (m + 3.0 * n + 3.0) * (n + 1.0)
+        + m * (n + 1.0);
+    match memory < 1e8 {
+        true => Ok(()),
+        false => Err(GaitError::TooLarge { limits, unknowns }),
     }
 }
 

@@ -5,7 +5,7 @@
 
 use articulated_fluid::Configuration;
 use dvi::{FirstVariation, Gauss, State, Variation};
-use faer::linalg::solvers::Solve;
+use faer::linalg::solvers::{Solve, SolveLstsq};
 use faer::{Mat, MatRef};
 use lie::{LieGroup, SE3, SO3, Tangent, Vec3, VectorSpace};
 
@@ -16,11 +16,10 @@ use crate::steered::SteeredTree;
 const MOST: u32 = 30;
 /// The stages of the steps.
 const STAGES: usize = 4;
-/// The residual of an orbit, relative to momenta and angles of the order of one.
+/// The residual of an orbit, in rad, and relative to the [scales](Scales) of the momenta.
 const SOLVED: f64 = 1e-10;
-
 /// A correction beyond this leads away.
-const WILD: f64 = 1e6;
+const WILD: f64 = 10.0;
 
 /// The period that is stepped: from when on, how long, s, and by how many steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +29,19 @@ pub(crate) struct Period {
     pub(crate) steps: u32,
 }
 
+/// What a swimmer's motion is compared with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scales {
+    /// m.
+    pub(crate) length: f64,
+    /// Momentum of the whole at a length in a radian's part of the period, kg m/s.
+    pub(crate) linear: f64,
+    /// Angular momentum likewise, kg m²/s.
+    pub(crate) angular: f64,
+    /// Whether the momentum is kept: then the stroke is sought that has none.
+    pub(crate) is_kept: bool,
+}
+
 /// A steady stroke.
 #[derive(Clone, Debug)]
 pub struct Steady {
@@ -37,7 +49,8 @@ pub struct Steady {
     pub state: State<Configuration>,
     /// The net motion of the period.
     pub net: SE3,
-    /// The multipliers of the orbit, real and imaginary parts, the largest first: how a small disturbance is after a period.
+    /// The Floquet multipliers of the orbit, real and imaginary parts, the largest first: how a small disturbance is after a period. Those of a
+    /// momentum that is kept are one, and left out.
     pub multipliers: Vec<[f64; 2]>,
     /// $h^{-1} \partial h$ by each parameter of the system.
     pub(crate) slopes: Vec<Tangent<6>>,
@@ -154,7 +167,7 @@ fn after_period(
 pub(crate) fn steady(
     system: SteeredTree,
     start: &State<Configuration>,
-    period: Period,
+    (period, scales): (Period, Scales),
 ) -> Result<Steady, GaitError> {
     let gauss = &mut Gauss::with_stages(system, STAGES).ok_or(GaitError::Rigid)?;
     let mut state = start.clone();
@@ -162,24 +175,21 @@ pub(crate) fn steady(
     bring_back(&mut state, &mut []);
     let variables = reduced(&state.g);
     let mut residual = f64::INFINITY;
-    for _ in 0..MOST {
-        let back = after_period(gauss, &state, period)?;
+    for k in 0..MOST {
+        let back = match after_period(gauss, &state, period) {
+            // A correction led where no step is solved.
+            Err(GaitError::Step(_)) if k > 0 => break,
+            back => back?,
+        };
         let map = matrix(&variables, &back);
         let off = apart(&state, &back.state);
-        let size = |change: &Variation<Configuration>| {
-            change
-                .eta
-                .max_magnitude()
-                .max(change.mu.max_magnitude() / (1.0 + state.mu.max_magnitude()))
-        };
-        residual = size(&off);
+        residual = size(&off, &scales);
         if residual < SOLVED {
-            return finish(state, back, map.as_ref());
+            return finish(state, back, map.as_ref(), &scales);
         }
         let n = variables.len();
         let right = Mat::from_fn(n, 1, |i, _| coordinate(&off, variables[i]));
-        let left = Mat::<f64>::identity(n, n) - map.subcols(0, n);
-        let change = left.partial_piv_lu().solve(&right);
+        let change = solve(&state, map.as_ref(), right.as_ref(), &scales);
         let mut step = Variation::zero(&state.g);
         let dim = step.eta.dim();
         for (k, i) in variables.iter().enumerate() {
@@ -188,13 +198,65 @@ pub(crate) fn steady(
                 Some(i) => step.mu.set(i, change[(k, 0)]),
             }
         }
-        if size(&step).is_nan() || size(&step) > WILD {
+        let far = size(&step, &scales);
+        if far.is_nan() || far > WILD {
             break;
         }
         state.g = state.g.compose(&Configuration::exp(&step.eta));
         state.mu.add_scaled(1.0, &step.mu);
     }
     Err(GaitError::NotSteady { residual })
+}
+
+/// The largest change of an angle, rad, or of a momentum on its scale.
+fn size(change: &Variation<Configuration>, scales: &Scales) -> f64 {
+    let linear = change.mu.1.iter().map(|p| p.vec3().norm() / scales.linear);
+    let spins = change.mu.0.iter().map(|p| p.vec3().norm());
+    let hinges = change.mu.2.iter().map(|p| p[0].abs());
+    let angular = spins.chain(hinges).map(|p| p / scales.angular);
+    let momenta = linear
+        .chain(angular)
+        .fold(0.0, |m: f64, x| if x > m || x.is_nan() { x } else { m });
+    change.eta.max_magnitude().max(momenta) + 0.0 * momenta
+}
+
+/// Solves $(1 - P_z) x = b$. A momentum that is kept stays what it is, by six further rows: then $1 - P_z$ alone is singular.
+fn solve(
+    state: &State<Configuration>,
+    map: MatRef<'_, f64>,
+    right: MatRef<'_, f64>,
+    scales: &Scales,
+) -> Mat<f64> {
+    let n = map.nrows();
+    let left = Mat::<f64>::identity(n, n) - map.subcols(0, n);
+    if !scales.is_kept {
+        return left.partial_piv_lu().solve(right);
+    }
+    let rows = momentum_rows(state);
+    let all = Mat::from_fn(n + 6, n, |i, k| match i.checked_sub(n) {
+        None => left[(i, k)],
+        Some(i) => rows[i][k],
+    });
+    let wanted = Mat::from_fn(n + 6, right.ncols(), |i, k| {
+        if i < n { right[(i, k)] } else { 0.0 }
+    });
+    all.col_piv_qr().solve_lstsq(wanted)
+}
+
+/// How the momenta of the whole, $p_x$ and $\sum R_i p_i$, change with the reduced variables, at the origin.
+fn momentum_rows(state: &State<Configuration>) -> [Vec<f64>; 6] {
+    let unit = Variation::basis(&state.g);
+    let columns = reduced(&state.g).into_iter().map(|i| {
+        let change = &unit[i];
+        let roots = state.g.0.iter().zip(state.mu.0.iter());
+        let roots = roots.zip(change.eta.0.iter().zip(change.mu.0.iter()));
+        let spin = roots.fold(Vec3::zero(), |sum, ((r, p), (eta, by))| {
+            sum + r.rotate(by.vec3() + eta.vec3().cross(p.vec3()))
+        });
+        [change.mu.1[0].vec3().0, spin.0].concat()
+    });
+    let columns: Vec<Vec<f64>> = columns.collect();
+    [0, 1, 2, 3, 4, 5].map(|row| columns.iter().map(|column| column[row]).collect())
 }
 
 /// The derivative of the reduced state by the reduced variables, and then by the parameters.
@@ -209,18 +271,27 @@ fn finish(
     state: State<Configuration>,
     back: Return,
     map: MatRef<'_, f64>,
+    scales: &Scales,
 ) -> Result<Steady, GaitError> {
     let n = map.nrows();
-    let own = map.subcols(0, n);
-    let found = own
-        .eigenvalues()
-        .map_err(|_| GaitError::NotSteady { residual: f64::NAN })?;
+    let found = map.subcols(0, n).eigenvalues().map_err(|_| {
+        let quantity = "derivative";
+        GaitError::NotFinite { quantity }
+    })?;
     let mut multipliers: Vec<[f64; 2]> = found.iter().map(|value| [value.re, value.im]).collect();
+    if scales.is_kept {
+        // Those of the momentum, which are one.
+        multipliers.sort_by(|a, b| {
+            (a[0] - 1.0)
+                .hypot(a[1])
+                .total_cmp(&(b[0] - 1.0).hypot(b[1]))
+        });
+        multipliers.drain(..multipliers.len().min(6));
+    }
     let size = |value: &[f64; 2]| value[0].hypot(value[1]);
     multipliers.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let by_parameters = map.subcols(n, map.ncols() - n);
-    let left = Mat::<f64>::identity(n, n) - own;
-    let moved = left.partial_piv_lu().solve(by_parameters);
+    let moved = solve(&state, map, by_parameters, scales);
     let slope = |p: usize| {
         let through = back.moves[..n].iter().enumerate();
         through.fold(back.moves[n + p], |sum, (i, by)| sum + *by * moved[(i, p)])

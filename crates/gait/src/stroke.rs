@@ -90,16 +90,20 @@ pub struct Fourier {
 }
 
 impl Fourier {
+    /// The most harmonics.
+    pub const MOST: usize = 32;
+
     /// The stroke of these coefficients: of each coordinate $c, a_1, b_1, \dots, a_K, b_K$, rad.
     ///
     /// # Errors
     /// [`GaitError::Coefficients`] where they are no multiple of $2 K + 1$, or one is not finite;
-    /// [`GaitError::Period`] where the period is not positive.
+    /// [`GaitError::Period`] where the period is not positive; [`GaitError::Order`] above [`MOST`](Self::MOST).
     pub fn new(period: f64, order: usize, coefficients: Vec<f64>) -> Result<Self, GaitError> {
         let finite = coefficients.iter().all(|x| x.is_finite());
         if !(period > 0.0 && period.is_finite()) {
             return Err(GaitError::Period { period });
         }
+        check_order(order)?;
         match finite && !coefficients.is_empty() && coefficients.len().is_multiple_of(2 * order + 1)
         {
             true => Ok(Self {
@@ -117,9 +121,10 @@ impl Fourier {
     /// The nearest stroke of order `order` to another one, in the mean of the squares.
     ///
     /// # Errors
-    /// [`GaitError::Period`], [`GaitError::Coefficients`] where the other is not finite.
+    /// [`GaitError::Period`], [`GaitError::Order`], [`GaitError::Coefficients`] where the other is not finite.
     pub fn fit(stroke: &dyn Stroke, order: usize) -> Result<Self, GaitError> {
         const SAMPLES: u32 = 512;
+        check_order(order)?;
         let period = stroke.period();
         let basis = |t: f64| Basis::new(order, TAU / period, t, 0).0;
         let times = (0..SAMPLES).map(|i| period * f64::from(i) / f64::from(SAMPLES));
@@ -135,6 +140,24 @@ impl Fourier {
             }
         }
         Self::new(period, order, coefficients)
+    }
+
+    /// The largest difference to another stroke, over the largest angle of that.
+    pub(crate) fn misses(&self, stroke: &dyn Stroke) -> f64 {
+        const SAMPLES: u32 = 97;
+        let times = (0..SAMPLES).map(|i| self.period * f64::from(i) / f64::from(SAMPLES));
+        let (mut off, mut largest) = (0.0_f64, 0.0_f64);
+        for t in times {
+            let shapes = self
+                .derivative(t, 0)
+                .into_iter()
+                .zip(stroke.derivative(t, 0));
+            for (own, other) in shapes {
+                off = off.max((own - other).abs());
+                largest = largest.max(other.abs());
+            }
+        }
+        off / largest.max(f64::MIN_POSITIVE)
     }
 
     /// The same with other coefficients.
@@ -168,6 +191,16 @@ impl Fourier {
     /// The `k`-th derivatives of $1, \cos \omega t, \sin \omega t, \cos 2 \omega t, \dots$.
     pub(crate) fn basis(&self, t: f64, k: u32) -> Vec<f64> {
         Basis::new(self.order, TAU / self.period, t, k).0
+    }
+}
+
+fn check_order(order: usize) -> Result<(), GaitError> {
+    match order <= Fourier::MOST {
+        true => Ok(()),
+        false => Err(GaitError::Order {
+            order,
+            most: Fourier::MOST,
+        }),
     }
 }
 

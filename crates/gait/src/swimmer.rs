@@ -1,12 +1,14 @@
 //! A scene whose joints do a stroke, with all that acts on it.
 
+use core::f64::consts::TAU;
+
 use articulated_fluid::{ArticulatedBody, Configuration, Scene};
 use dvi::{Gauss, Integrator, State};
-use lie::{SE3, Tangent};
+use lie::{SE3, Tangent, VectorSpace};
 
 use crate::error::GaitError;
 use crate::net::distance;
-use crate::steady::{Period, Steady, steady};
+use crate::steady::{Period, Scales, Steady, steady};
 use crate::steered::SteeredTree;
 use crate::stroke::{Fourier, Stroke, Told};
 
@@ -15,7 +17,7 @@ const STEPS: u32 = 24;
 const MOST_STEPS: u32 = 384;
 /// Periods that are stepped before Newton's method tries again.
 const SETTLING: u32 = 8;
-/// How little the net motion may change with twice as many steps, rad and m.
+/// How little the net motion may change with twice as many steps, rad and body lengths.
 const CONVERGED: f64 = 1e-10;
 
 /// A scene that swims: what its joints are told, and all that acts on it.
@@ -26,7 +28,7 @@ pub struct Swimmer {
     model: ArticulatedBody,
     start: State<Configuration>,
     told: Told,
-    is_loaded: bool,
+    scales: Scales,
 }
 
 impl Swimmer {
@@ -39,17 +41,48 @@ impl Swimmer {
             return Err(GaitError::Held);
         }
         let model = scene.model().map_err(GaitError::Model)?;
+        if !floats(scene) {
+            return Err(GaitError::Weight);
+        }
+        let told = Told::new(&model)?;
         Ok(Self {
             start: scene.initial_state().map_err(GaitError::Model)?,
-            told: Told::new(&model)?,
-            is_loaded: !(model.keeps_momentum() && floats(scene)),
+            scales: scales(&model, told.period()),
+            told,
             model,
         })
     }
 
-    /// Whether something acts that changes the momentum: drag, thrust, a weight.
+    /// Whether something acts that changes the momentum: drag or thrust.
     pub fn is_loaded(&self) -> bool {
-        self.is_loaded
+        !self.scales.is_kept
+    }
+
+    /// Whether the whole has a momentum at the start: more than 1e-12 of what the bodies have, or have in a motion of a length in a period.
+    pub fn has_momentum(&self) -> bool {
+        const NOTHING: f64 = 1e-12;
+        let start = &self.start;
+        let Ok(kept) = self.model.conserved(start) else {
+            return true;
+        };
+        let spin = kept.angular - start.g.1[0].vec3().cross(kept.linear);
+        let speed = self
+            .model
+            .velocity(start)
+            .map_or(0.0, |xi| xi.max_magnitude());
+        let Scales {
+            linear,
+            angular,
+            length,
+            ..
+        } = self.scales;
+        let faster = 1.0 + speed * self.told.period() * (1.0 + 1.0 / length);
+        kept.linear.norm() > NOTHING * linear * faster || spin.norm() > NOTHING * angular * faster
+    }
+
+    /// The radius of gyration of its bodies, m.
+    pub fn length(&self) -> f64 {
+        self.scales.length
     }
 
     /// The model.
@@ -57,11 +90,23 @@ impl Swimmer {
         &self.model
     }
 
-    /// The scene's state at the time that the stroke repeats from.
-    pub fn start(&self) -> State<Configuration> {
-        let mut start = self.start.clone();
-        start.t = self.told.from();
-        start
+    /// The scene's state at the time that the stroke repeats from, to which it is stepped.
+    ///
+    /// # Errors
+    /// [`GaitError::Step`].
+    pub fn start(&self) -> Result<State<Configuration>, GaitError> {
+        let mut state = self.start.clone();
+        let (from, h) = (self.told.from(), self.told.period() / f64::from(2 * STEPS));
+        let steps = (from / h).ceil();
+        let mut gauss = Gauss::new::<4>(self.system());
+        for k in 0..steps as u64 {
+            state.t = from * k as f64 / steps;
+            gauss
+                .step(&mut state, from / steps)
+                .map_err(GaitError::Step)?;
+        }
+        state.t = from;
+        Ok(state)
     }
 
     /// What the joints are told.
@@ -70,23 +115,30 @@ impl Swimmer {
     }
 
     /// The steady stroke that the scene's own leads to, and how many steps of Gauss's method of four stages its period took:
-    /// twice as many change it by less than 1e-10.
+    /// half as many change it by less than 1e-10, in rad and body lengths, unless they are 384.
     ///
     /// # Errors
-    /// [`GaitError::Step`], [`GaitError::NotSteady`].
+    /// [`GaitError::Step`], [`GaitError::NotSteady`], and [`GaitError::Momentum`] where a momentum is kept.
     pub fn steady(&self) -> Result<(Steady, u32), GaitError> {
-        let mut start = self.start();
+        if self.scales.is_kept && self.has_momentum() {
+            return Err(GaitError::Momentum);
+        }
+        let mut start = self.start()?;
         let mut steps = STEPS;
-        let mut found = match steady(self.system(), &start, self.period(steps)) {
+        let mut found = match steady(self.system(), &start, (self.period(steps), self.scales)) {
             Err(GaitError::NotSteady { .. }) => {
                 self.settle(&mut start)?;
-                steady(self.system(), &start, self.period(steps))?
+                steady(self.system(), &start, (self.period(steps), self.scales))?
             }
             found => found?,
         };
         while steps < MOST_STEPS {
-            let finer = steady(self.system(), &found.state, self.period(2 * steps))?;
-            let change = distance(&found.net, &finer.net);
+            let finer = steady(
+                self.system(),
+                &found.state,
+                (self.period(2 * steps), self.scales),
+            )?;
+            let change = distance(&found.net, &finer.net, self.scales.length);
             found = finer;
             steps *= 2;
             if change < CONVERGED {
@@ -100,10 +152,22 @@ impl Swimmer {
     /// exactly that of these steps, by first variations.
     ///
     /// # Errors
-    /// As [`steady`](Self::steady).
+    /// As [`steady`](Self::steady); [`GaitError::Shape`] and [`GaitError::Period`] of a stroke of other coordinates or another period.
     pub fn steady_by(&self, stroke: &Fourier) -> Result<(SE3, Vec<Tangent<6>>), GaitError> {
+        let (expected, found) = (
+            self.told.derivative(0.0, 0).len(),
+            stroke.coordinates().len(),
+        );
+        if expected != found {
+            return Err(GaitError::Shape { expected, found });
+        }
+        let period = stroke.period();
+        if (period - self.told.period()).abs() > 1e-12 * period {
+            return Err(GaitError::Period { period });
+        }
         let steered = SteeredTree::new(self.model.clone(), stroke, self.told.from());
-        let found = steady(steered, &self.start(), self.period(2 * STEPS))?;
+        let steps = (STEPS * stroke.order() as u32).max(2 * STEPS);
+        let found = steady(steered, &self.start, (self.period(steps), self.scales))?;
         Ok((found.net, found.slopes))
     }
 
@@ -130,9 +194,24 @@ impl Swimmer {
     }
 }
 
-/// Whether no weight is left that would give the whole a momentum.
+/// Whether no weight is left that would move or turn the whole.
 fn floats(scene: &Scene) -> bool {
     let mut bodies = scene.bodies.iter();
     let afloat = bodies.all(|body| body.net_mass == 0.0 && body.buoyancy_at == [0.0; 3]);
     afloat || scene.gravity == [0.0; 3]
+}
+
+/// What its motions are compared with.
+fn scales(model: &ArticulatedBody, period: f64) -> Scales {
+    let bodies = model.bodies();
+    let [mass, inertia] = bodies.fold([0.0; 2], |[m, j], body| {
+        [m + body.mass.trace() / 3.0, j + body.inertia.trace() / 3.0]
+    });
+    let (length, omega) = ((inertia / mass).sqrt(), TAU / period);
+    Scales {
+        length,
+        linear: mass * length * omega,
+        angular: inertia * omega,
+        is_kept: model.keeps_momentum(),
+    }
 }

@@ -166,6 +166,14 @@ impl Tree {
         placed.attitudes.into_iter().zip(placed.centres).collect()
     }
 
+    /// The first of the bodies that are welded to a body.
+    pub(crate) fn cluster(&self, mut body: usize) -> usize {
+        while body > 0 && self.links[body].joint.dim() == 0 {
+            body = self.links[body].parent;
+        }
+        body
+    }
+
     /// Whether body `i` is body `k`, or one that `k` hangs on.
     fn carries(&self, i: usize, mut k: usize) -> bool {
         while k > i {

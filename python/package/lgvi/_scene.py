@@ -165,7 +165,7 @@ class Scene:
     def gait(self, strokes: int = 10) -> dict[str, Any]:
         """What a stroke of the joints does, as ``lgvi gait --json`` tells it, and where ``strokes`` of them lead.
 
-        The joints repeat a motion: that is the stroke. Without loads and momentum the shape alone leads. With loads or
+        The joints repeat a motion: that is the stroke. Without loads and momentum the shape alone leads. With drag, thrust or
         free joints it is the steady stroke, a motion that after a period is as it was, but elsewhere.
 
         ``net`` has the turn about an axis and the advance along it; ``positive_work_joules`` sums max(0, power) over
@@ -203,8 +203,9 @@ class Scene:
         starts     how many strokes the search starts from; the same ones each time.
         progress   True, or a function of the starts done.
 
-        Bodies with semi-axes do not overlap. The gradients are exact, and the optimiser is SLSQP. All joints are told,
-        without loads. Raises ``ValueError`` where no stroke within the limits is found.
+        Bodies with semi-axes do not overlap. Limits hold at several times of the stroke; between them they may be
+        exceeded by some 3 %. The gradients are exact, and the optimiser is SLSQP. All joints are told. With drag or thrust
+        it is the best steady stroke. Raises ``ValueError`` where no stroke within the limits is found.
 
         >>> best = swimmer.best_gait("advance-per-work")
         >>> best.scene.simulate(10)

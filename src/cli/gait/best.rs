@@ -1,6 +1,5 @@
 //! The search for the best stroke, and what it tells.
 
-use std::fs;
 use std::io::Write;
 use std::path::Path;
 
@@ -14,12 +13,15 @@ use super::super::interrupt::Interrupt;
 use super::super::{output, print, progress};
 use super::{Args, COUPLING, digits, failed};
 
+/// The line that tells what a written scene is.
+const HEAD: &str = "# The best stroke by ";
+
 /// What was found, as JSON.
 #[derive(Serialize)]
 struct Best<'a> {
     objective: &'a str,
     unit: &'a str,
-    /// Of the scene's own stroke, as far as the harmonics tell it.
+    /// Of the scene's own stroke.
     own: f64,
     best: f64,
     /// Of each start, the scene's own first; null where none was found within the limits.
@@ -32,7 +34,7 @@ struct Best<'a> {
 /// Searches from the scene's own stroke and from random ones, and writes the scene with the best.
 pub(super) fn search(
     args: &Args,
-    scene: &Scene,
+    (scene, text): (&Scene, &str),
     objective: Objective,
     out: &Path,
 ) -> Result<(), CliError> {
@@ -45,7 +47,7 @@ pub(super) fn search(
     let file = output::begin(out, Some(&args.scene))?;
     let interrupt = Interrupt::listen().map_err(CliError::Signals)?;
     let order = usize::try_from(args.order).unwrap_or(usize::MAX);
-    let own = search.own(scene, order).map_err(fail)?;
+    let own = search.own(order).map_err(fail)?;
     let bar = progress::bar(args.starts, "starts {pos}/{len} {bar:30}");
     let go_on = || interrupt.signal().is_none();
     let found = search.from_starts(
@@ -58,9 +60,11 @@ pub(super) fn search(
     let found = found.map_err(fail)?;
     let better = |a: &&Found, b: &&Found| a.value.total_cmp(&b.value);
     let best = found.iter().flatten().max_by(better);
-    let best = best.ok_or_else(|| fail(GaitError::NoStroke))?;
-    let text = fs::read_to_string(&args.scene).map_err(CliError::Stdout)?;
-    let written = written(&text, &search, (objective, best)).map_err(fail)?;
+    let best = best.ok_or_else(|| match interrupt.signal() {
+        Some(signal) => CliError::Stopped { signal },
+        None => fail(GaitError::NoStroke),
+    })?;
+    let written = written(text, &search, (objective, best)).map_err(fail)?;
     write(file, &written).map_err(|source| CliError::output(out, source))?;
     tell(args, &search, (objective, &own, &found, best), out)?;
     match interrupt.signal() {
@@ -80,12 +84,14 @@ fn written(
     (objective, best): (Objective, &Found),
 ) -> Result<String, GaitError> {
     let head = format!(
-        "# The best stroke by {}: {} {}.\n",
+        "{HEAD}{}: {} {}.\n",
         objective.name(),
         digits(best.value),
         objective.unit()
     );
-    Ok(head + &with_stroke(text, search.chain(), &best.stroke)?)
+    let lines = text.split_inclusive('\n');
+    let text: String = lines.skip_while(|line| line.starts_with(HEAD)).collect();
+    Ok(head + &with_stroke(&text, search.chain(), &best.stroke, search.from())?)
 }
 
 fn tell(
@@ -94,9 +100,7 @@ fn tell(
     (objective, own, found, best): (Objective, &Fourier, &[Option<Found>], &Found),
     out: &Path,
 ) -> Result<(), CliError> {
-    let own = objective
-        .of(search.chain(), own)
-        .map_err(|source| failed(args, source))?;
+    let own = search.value(own).map_err(|source| failed(args, source))?;
     let starts = found
         .iter()
         .map(|found| found.as_ref().map(|found| found.value));

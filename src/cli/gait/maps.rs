@@ -86,8 +86,8 @@ fn picture(scene: &Scene, chain: &Chain, maps: &HeightMaps) -> Figure {
         columns: panels.len().clamp(1, 3),
         labels: Labels::Ends,
         notes: vec![
-            "Height functions in the body coordinates whose connection is least over the map. Red moves forwards where the loop runs from the first coordinate to the second.".to_owned(),
-            format!("Net motion by the areas (turn, rad; advance, m): {}. Exactly: {}.", told(&by_area), told(&exact)),
+            "Height functions in the body coordinates whose connection is least over the map. Red is positive, of a loop from the first coordinate to the second.".to_owned(),
+            format!("Net motion without momentum and loads, by the areas (turn, rad; advance, m): {}. Exactly: {}.", told(&by_area), told(&exact)),
         ],
         panels,
         ..Figure::default()

@@ -5,9 +5,11 @@ mod best;
 mod maps;
 mod tell;
 
-use std::path::PathBuf;
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
 
 use articulated_fluid::Scene;
+use articulated_fluid::scene::read_bounded;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use gait::{GaitError, Objective, Report};
 use sim::number::{decimal, rounded};
@@ -19,7 +21,7 @@ use super::print;
 /// Tell what a stroke of the joints does: its net motion, work and cost; or find the best stroke.
 ///
 /// The joints of the scene repeat a motion. Without loads and momentum the shape alone leads: the net motion of a stroke is found from it,
-/// whatever the speed. With loads, or with free joints, it is the steady stroke that the swimmer comes to.
+/// whatever the speed. With drag, thrust or free joints it is the steady stroke that the swimmer comes to.
 #[derive(clap::Args)]
 #[command(after_long_help = AFTER_LONG_HELP)]
 pub struct Args {
@@ -39,10 +41,10 @@ pub struct Args {
     #[arg(long, value_name = "K", default_value = "2", value_parser = args::count, requires = "best")]
     order: u64,
     /// The largest angle of a hinge, or turn of a ball from rest, in rad
-    #[arg(long, value_name = "ANGLE", default_value = "1", value_parser = args::seconds, requires = "best")]
+    #[arg(long, value_name = "ANGLE", default_value = "1", value_parser = args::angle, requires = "best")]
     angle: f64,
     /// The largest rate of a joint, in rad/s [default: any]
-    #[arg(long, value_name = "RATE", value_parser = args::seconds, requires = "best")]
+    #[arg(long, value_name = "RATE", value_parser = args::angle, requires = "best")]
     rate: Option<f64>,
     /// How many strokes the search starts from
     #[arg(long, value_name = "N", default_value = "10", value_parser = args::count, requires = "best")]
@@ -74,11 +76,16 @@ Work:
 
 Best stroke:
   Each coordinate of the shape is a Fourier series, whose coefficients are the unknowns; the period stays the scene's. Bodies with
-  semi-axes do not overlap. The gradient is exact, and the optimiser is SLSQP. An interrupt keeps the best stroke so far.
+  semi-axes do not overlap. Limits hold at several times of the stroke; between them they may be exceeded by some 3 percent.
+  The gradient is exact, and the optimiser is SLSQP. With drag or thrust it is the best steady stroke. An interrupt keeps the best stroke so far.
 
 Maps:
   A small loop in the plane of two shape coordinates moves the swimmer by its height times its area, and a larger one nearly so. The
   maps are in the body coordinates in which that holds best, those whose connection is least over the map; the CSV has all six.
+
+Steady strokes:
+  A swimmer with drag, thrust or free joints comes to a motion that after a stroke is as it was, but elsewhere. Small disturbances die
+  out where all Floquet multipliers are smaller than 1. A weight would turn the swimmer: scenes with one are refused.
 
 What is left out:
   The bodies disturb the fluid for each other, which the model leaves out. For strokes of three links, where it was computed, that is
@@ -107,13 +114,26 @@ fn help(objective: Objective) -> &'static str {
 
 /// Tells what the scene's stroke does, and finds a better one.
 pub fn execute(args: &Args) -> Result<(), CliError> {
-    let scene = Scene::load(&args.scene)?;
+    // What is written is what was read, whatever happens to the file.
+    let text = RefCell::new(Vec::new());
+    let reads = |path: &Path| {
+        let bytes = read_bounded(path)?;
+        if path == args.scene {
+            text.borrow_mut().clone_from(&bytes);
+        }
+        Ok(bytes)
+    };
+    let scene = Scene::load_by(&args.scene, &reads)?;
+    let text = text.into_inner();
     #[cfg(feature = "chart")]
     if let Some(stem) = &args.maps {
         maps::draw(args, &scene, stem)?;
     }
     match (args.best, &args.out) {
-        (Some(objective), Some(out)) => best::search(args, &scene, objective, out),
+        (Some(objective), Some(out)) => {
+            let text = String::from_utf8_lossy(&text);
+            best::search(args, (&scene, &text), objective, out)
+        }
         _ => tell(args, &scene),
     }
 }

@@ -60,7 +60,7 @@ pub(super) fn text(report: &Report) -> String {
         format!("{work} J, by the power at {} times", report.samples),
     );
     let cost = report.cost_of_transport.map_or_else(
-        || "not known: bodies without a mass of their own, or no displacement".to_owned(),
+        || "not known: the stroke leads nowhere, or a body has no mass of its own".to_owned(),
         digits,
     );
     row("cost of transport", cost);
@@ -69,13 +69,11 @@ pub(super) fn text(report: &Report) -> String {
     }
     if let Some(stable) = report.stable {
         let [re, im] = report.multipliers[0];
-        let word = if stable { "dies out" } else { "grows" };
+        let word = if stable { "shrinks" } else { "grows" };
+        let size = digits(re.hypot(im));
         row(
             "stability",
-            format!(
-                "a disturbance {word}: by {} in a stroke at most",
-                digits(re.hypot(im))
-            ),
+            format!("a disturbance {word} to {size} of itself in a stroke at most"),
         );
     }
     if let Some(last) = report.path_metres.last() {

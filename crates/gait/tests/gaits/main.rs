@@ -4,6 +4,7 @@ mod best;
 mod gradients;
 mod heights;
 mod net;
+mod refused;
 mod rewritten;
 mod steady;
 mod swimmers;

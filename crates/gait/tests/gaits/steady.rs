@@ -9,11 +9,19 @@ use crate::swimmers::Plain;
 
 /// A fish of three ellipsoids, braked; its tail hangs on a spring or moves as told.
 fn braked(tail: &str, drag: f64) -> Scene {
+    braked_at(tail, drag, 1.0)
+}
+
+/// The same with all lengths times `scale`. Masses go with its cube, forces per velocity too, and moments per rate with its fifth power.
+fn braked_at(tail: &str, drag: f64, scale: f64) -> Scene {
+    let (linear, angular) = (drag * scale.powi(3), 0.1 * drag * scale.powi(5));
+    let [b, c, long, short] = [0.1, 0.2, 0.55, 0.35].map(|x: f64| x * scale);
     let body = |name: &str, a: f64| {
+        let a = a * scale;
         format!(
-            "{{ name = '{name}', semi_axes = [{a}, 0.1, 0.2], drag = {{ linear = [{drag}, {0}, {0}], angular_linear = [{1}, {1}, {1}] }} }}",
-            4.0 * drag,
-            0.1 * drag
+            "{{ name = '{name}', semi_axes = [{a}, {b}, {c}],
+               drag = {{ linear = [{linear}, {0}, {0}], angular_linear = [{angular}, {angular}, {angular}] }} }}",
+            4.0 * linear,
         )
     };
     let text = format!(
@@ -21,9 +29,9 @@ fn braked(tail: &str, drag: f64) -> Scene {
         start.momentum = 'zero'
         body = [{}, {}, {}]
         joint = [
-          {{ parent = 'trunk', child = 'head', at_parent = [0.55, 0, 0], at_child = [-0.35, 0, 0], type = 'hinge', axis = [0, 0.2, 1],
+          {{ parent = 'trunk', child = 'head', at_parent = [{long}, 0, 0], at_child = [-{short}, 0, 0], type = 'hinge', axis = [0, 0.2, 1],
              motion = {{ amplitude = 0.4, frequency = 1 }} }},
-          {{ parent = 'trunk', child = 'tail', at_parent = [-0.55, 0, 0], at_child = [0.35, 0, 0], type = 'hinge', axis = [0, 0, 1], {tail} }},
+          {{ parent = 'trunk', child = 'tail', at_parent = [-{long}, 0, 0], at_child = [{short}, 0, 0], type = 'hinge', axis = [0, 0, 1], {tail} }},
         ]",
         body("trunk", 0.5),
         body("head", 0.3),
@@ -80,6 +88,42 @@ fn a_braked_swimmer_comes_to_its_steady_stroke() {
     }
 }
 
+/// Without drag the momentum is kept, and a tail on a spring with a damper comes to its stroke all the same.
+#[test]
+fn a_tail_on_a_spring_comes_to_its_stroke_without_drag() {
+    let scene = braked(SPRUNG, 0.0);
+    let (steady, _) = Swimmer::new(&scene)
+        .expect("a swimmer")
+        .steady()
+        .expect("a stroke");
+    println!("multipliers {:?}", steady.multipliers);
+    assert!(steady.is_stable() && steady.multipliers.len() == 2);
+    let left = steady.largest_multiplier().powi(78);
+    let found = after(&scene, 80);
+    assert!(
+        apart(&steady.net, &found) < 1e-8 + left,
+        "{:?} {found:?}",
+        steady.net
+    );
+}
+
+/// Lengths of a thousandth in a fluid as dense, with drag to match: the same motion, a thousand times smaller.
+#[test]
+fn a_small_swimmer_is_solved_as_well_as_a_large_one() {
+    let net = |scale: f64| {
+        let scene = braked_at(DRIVEN, 2.0, scale);
+        Swimmer::new(&scene)
+            .expect("a swimmer")
+            .steady()
+            .expect("a stroke")
+            .0
+            .net
+    };
+    let (large, small) = (net(1.0), net(1e-3));
+    let off = (small.translation * 1e3 - large.translation).norm();
+    assert!(off < 1e-8, "{large:?} {small:?}");
+}
+
 /// Little drag leads to the stroke without momentum.
 #[test]
 fn without_drag_the_steady_stroke_is_that_of_the_shape() {
@@ -132,7 +176,7 @@ fn a_better_stroke_is_found_with_drag() {
         rate: f64::INFINITY,
     };
     let search = Search::new(&braked(DRIVEN, 2.0), Objective::Advance, limits).expect("a search");
-    let own = search.own(&braked(DRIVEN, 2.0), 1).expect("a stroke");
+    let own = search.own(1).expect("a stroke");
     let found = search
         .improve(&own, &|| true)
         .expect("an evaluation")
