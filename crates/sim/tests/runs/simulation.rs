@@ -332,6 +332,8 @@ fn a_run_beyond_the_end_of_a_table_is_refused() {
 }
 
 /// A hinge that flaps at 1 Hz, and later than a default step looks at turns by 9 rad in a twentieth of a second.
+///
+/// Without momentum the motion is regular: another rounding does not lead to where an earlier step is not solved.
 fn spike() -> Scene {
     let directory = tempfile::tempdir().unwrap();
     let folder = directory.path();
@@ -346,10 +348,11 @@ fn spike() -> Scene {
     std::fs::write(folder.join("spike.csv"), format!("t,angle\n{rows}")).unwrap();
     let text = "
         fluid.density = 1000
-        body = [{ name = 'a', semi_axes = [0.3, 0.05, 0.1], angular_velocity = [0.2, 0.3, 0.1] }, { name = 'b', semi_axes = [0.2, 0.03, 0.1] },
+        start.momentum = 'zero'
+        body = [{ name = 'a', semi_axes = [0.3, 0.05, 0.1] }, { name = 'b', semi_axes = [0.2, 0.03, 0.1] },
                 { name = 'c', semi_axes = [0.2, 0.03, 0.1] }]
         joint = [{ parent = 'a', child = 'b', at_parent = [-0.32, 0, 0], at_child = [0.22, 0, 0], type = 'hinge', axis = [0, 0.2, 1], motion = { file = 'spike.csv' } },
-                 { parent = 'b', child = 'c', at_parent = [-0.22, 0, 0], at_child = [0.22, 0, 0] }]
+                 { parent = 'b', child = 'c', at_parent = [-0.22, 0, 0], at_child = [0.22, 0, 0], type = 'fixed' }]
     ";
     std::fs::write(folder.join("spike.toml"), text).unwrap();
     Scene::load(&folder.join("spike.toml")).unwrap()
