@@ -76,7 +76,7 @@ fn costs(scene: &Scene) -> Result<(), Box<dyn Error>> {
     let known = net_motion(&chain, &told)?;
     let (start, h) = (swimmer.start()?, told.period() / f64::from(STEPS));
     let method: Method = "gauss-4".parse()?;
-    let mut gauss = method.integrator(swimmer.model().clone());
+    let mut gauss = method.integrator_of_smallest(&scene.smallest()?);
     let mut end = SE3::identity();
     let stepping = time(|| {
         let mut state = start.clone();
