@@ -14,7 +14,7 @@ use crate::scene::NativeScene;
 
 /// What a stroke does, as JSON.
 #[pyfunction]
-pub fn gait(py: Python<'_>, scene: &NativeScene, strokes: u32) -> PyResult<String> {
+pub fn gait_report(py: Python<'_>, scene: &NativeScene, strokes: u32) -> PyResult<String> {
     let scene = scene.shared();
     let report = attend(py, None, move |_| Report::of(&scene, strokes))?;
     let report = report.map_err(|error| errors::of_gait(py, &error))?;

@@ -15,7 +15,7 @@ mod _lgvi {
     #[pymodule_export]
     use crate::ensemble::ensemble;
     #[pymodule_export]
-    use crate::gait::{best_gait, gait, height_maps, objectives};
+    use crate::gait::{best_gait, gait_report, height_maps, objectives};
     #[pymodule_export]
     use crate::run::methods;
     #[pymodule_export]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ._lgvi import NativeScene, objectives
 from ._lgvi import best_gait as _best_gait
-from ._lgvi import gait as gait
+from ._lgvi import gait_report as gait_report
 from ._lgvi import height_maps as _height_maps
 
 if TYPE_CHECKING:

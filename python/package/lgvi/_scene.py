@@ -180,7 +180,7 @@ class Scene:
         """
         if isinstance(strokes, bool) or not isinstance(strokes, int) or not 0 <= strokes < 2**32:
             raise ValueError(f"strokes is {strokes!r}; expected a whole number >= 0")
-        return json.loads(_gait.gait(self._native, strokes))
+        return json.loads(_gait.gait_report(self._native, strokes))
 
     def best_gait(
         self,
