@@ -41,8 +41,8 @@ pub fn best_gait(
     starts: u64,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Best> {
-    let objective = Objective::ALL.into_iter().find(|of| of.name() == objective);
-    let objective = objective.ok_or_else(|| PyValueError::new_err("no such objective"))?;
+    let objective =
+        Objective::named(objective).ok_or_else(|| PyValueError::new_err("no such objective"))?;
     let [angle, rate] = limits;
     let (scene, text) = (scene.shared(), scene.text().to_owned());
     let search = move |desk: &crate::attend::Desk| -> Result<Best, GaitError> {
@@ -51,12 +51,7 @@ pub fn best_gait(
         let go_on = || !desk.is_stopped();
         let found =
             search.from_starts(&own, starts, &mut |done| desk.reach(done as f64), &go_on)?;
-        let better = |a: &&Found, b: &&Found| a.value.total_cmp(&b.value);
-        let best = found
-            .iter()
-            .flatten()
-            .max_by(better)
-            .ok_or(GaitError::NoStroke)?;
+        let best = Found::best(&found).ok_or(GaitError::NoStroke)?;
         let values = found
             .iter()
             .map(|found| found.as_ref().map(|found| found.value));

@@ -78,8 +78,8 @@ impl Port {
 type Ports = [Port; 2];
 
 impl ArticulatedBody {
-    /// The drives of all joints that move as told or have a load, which have done nothing, in the order of the bodies; then the loads on
-    /// bodies, name by name.
+    /// The drives, which have done nothing: of all joints that move as told or have a load, in the order of the bodies.
+    /// Then come the loads on bodies, name by name.
     pub fn drives(&self) -> Vec<Drive> {
         let forces = &self.loads.forces;
         let driven = |body: &usize| {

@@ -120,11 +120,7 @@ fn search(scene: &Scene, task: &Task) -> Result<(), Box<dyn Error>> {
     let spent = begin.elapsed();
     let own = search.value(&own)?;
     let values: Vec<String> = found.iter().map(told).collect();
-    let best = found
-        .iter()
-        .flatten()
-        .map(|found| found.value)
-        .fold(f64::NEG_INFINITY, f64::max);
+    let best = Found::best(&found).map_or(f64::NAN, |best| best.value);
     let evaluations: usize = found.iter().flatten().map(|found| found.evaluations).sum();
     println!(
         "  best {} [{}]: {best:.6}, {:.2} times the scene's own {own:.6}",

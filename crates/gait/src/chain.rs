@@ -26,7 +26,7 @@ impl Chain {
     /// # Errors
     /// [`GaitError`] where the first body is held, a joint is free, nothing moves, or a motion is a function of one's own.
     pub fn new(scene: &Scene) -> Result<Self, GaitError> {
-        let model = scene.model().map_err(GaitError::Model)?;
+        let model = scene.model()?;
         if scene.mount.is_some() {
             return Err(GaitError::Held);
         }
@@ -69,8 +69,9 @@ impl Chain {
         Ok(self.tree.bodies(q))
     }
 
-    /// The torques $\tau = \frac{d}{dt}(G \dot q) - \frac12 \partial_q (\dot q^T G \dot q)$ that the joints do at zero momentum, N m, of a shape,
-    /// its rates and its accelerations.
+    /// The torques that the joints do at zero momentum, N m: $\tau = \frac{d}{dt}(G \dot q) - \frac12 \partial_q (\dot q^T G \dot q)$.
+    ///
+    /// They follow from a shape, its rates and its accelerations, rad and s.
     ///
     /// # Errors
     /// [`GaitError::Shape`].

@@ -20,8 +20,8 @@ const AROUND: f64 = 0.25;
 /// The height functions, or constraint curvatures, around a stroke of two coordinates, without momentum and loads.
 ///
 /// A height is $-F$ with $F = \partial_1 A_2 - \partial_2 A_1 - [A_1, A_2]$, in the body coordinates that make the connection least over the
-/// map. A small loop from the first coordinate to the second moves the swimmer by its height times its area; of a larger one that is
-/// right but for what does not commute.
+/// map. A small loop from the first coordinate to the second moves the swimmer by its height times its area. A larger one does so
+/// nearly: what does not commute is left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightMaps {
     /// The first coordinates of the points, rad, ascending.

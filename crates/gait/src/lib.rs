@@ -73,6 +73,7 @@ mod steered;
 mod stroke;
 mod swimmer;
 mod tree;
+mod walk;
 
 pub use chain::Chain;
 pub use effort::Effort;

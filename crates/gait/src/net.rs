@@ -70,8 +70,8 @@ pub fn path(chain: &Chain, stroke: &dyn Stroke, intervals: usize) -> Result<Vec<
 
 /// The net motion of a period, of a stroke without momentum.
 ///
-/// The parts of the period are halved until the motion changes by less than `1e-13`, in rad, and in m or of its size; where it does not come so far, as of a
-/// spline, the last is given.
+/// The parts of the period are halved until the motion changes by less than `1e-13`: in rad, and in m or, of longer ways, of their length.
+/// A spline does not come so far; then the last is given.
 ///
 /// # Errors
 /// [`GaitError::Shape`].

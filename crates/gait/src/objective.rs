@@ -55,6 +55,11 @@ impl Objective {
         }
     }
 
+    /// The one of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|of| of.name() == name)
+    }
+
     /// Its unit.
     pub fn unit(self) -> &'static str {
         match self {

@@ -10,6 +10,7 @@ use crate::effort::Effort;
 use crate::error::GaitError;
 use crate::net::net_motion;
 use crate::screw::Screw;
+use crate::steady::place;
 use crate::stroke::Stroke;
 use crate::swimmer::Swimmer;
 
@@ -128,28 +129,19 @@ impl Report {
             (Some(_), false, true) => Swims::WithMomentum,
             _ => Swims::Steadily,
         };
-        let mut multipliers = Vec::new();
-        let (mut start, mut net) = (swimmer.start()?, geometric.unwrap_or_default());
-        if swims == Swims::Steadily {
-            let (steady, _) = swimmer.steady()?;
-            (start, net, multipliers) = (steady.state, steady.net, steady.multipliers);
-        }
-        let (positive, samples) = match (&chain, swims) {
-            (Some(chain), Swims::WithoutMomentum) => {
-                converged(|samples| Effort::Work.of(chain, told, samples))?
-            }
-            _ => converged(|samples| Ok(stepped(&swimmer, &start, samples)?.1))?,
-        };
-        let mut path = vec![SE3::identity()];
-        for n in 0..strokes as usize {
-            path.push(path[n].compose(&net));
-        }
-        if swims == Swims::WithMomentum {
-            path = several(&swimmer, &start, strokes.max(1))?;
-            net = path[1];
-            path.truncate(strokes as usize + 1);
-        }
-        let stable = multipliers.first().map(|[re, im]| re.hypot(*im) < 1.0);
+        let Motion {
+            start,
+            net,
+            multipliers,
+            stable,
+            path,
+        } = Motion::of(&swimmer, swims, (geometric, strokes))?;
+        let (positive, samples) = converged(|samples| match (&start, &chain) {
+            (None, Some(chain)) => Effort::Work.of(chain, told, samples),
+            (Some(start), _) => positive_work(&swimmer, start, samples),
+            // Where nothing is told, nothing drives.
+            (None, None) => Ok(0.0),
+        })?;
         let length = chain.as_ref();
         let length =
             length.map(|chain| converged(|samples| Effort::Length.of(chain, told, samples)));
@@ -171,16 +163,66 @@ impl Report {
     }
 }
 
-/// Steps a period: the net motion, and the positive work of the drives, which each step counts by its sum.
-fn stepped(
+/// How a stroke moves.
+struct Motion {
+    /// Where it is stepped from; none where the shape alone tells all.
+    start: Option<State<Configuration>>,
+    net: SE3,
+    multipliers: Vec<[f64; 2]>,
+    stable: Option<bool>,
+    /// Where the first body is after each stroke.
+    path: Vec<SE3>,
+}
+
+impl Motion {
+    fn of(
+        swimmer: &Swimmer,
+        swims: Swims,
+        (geometric, strokes): (Option<SE3>, u32),
+    ) -> Result<Self, GaitError> {
+        let repeating = |net: SE3| {
+            let mut path = vec![SE3::identity()];
+            for n in 0..strokes as usize {
+                path.push(path[n].compose(&net));
+            }
+            path
+        };
+        let mut found = Self {
+            start: None,
+            net: geometric.unwrap_or_default(),
+            multipliers: Vec::new(),
+            stable: None,
+            path: Vec::new(),
+        };
+        match swims {
+            Swims::WithoutMomentum => found.path = repeating(found.net),
+            Swims::Steadily => {
+                let (steady, _) = swimmer.steady()?;
+                found.path = repeating(steady.net);
+                found.stable = (!steady.multipliers.is_empty()).then(|| steady.is_stable());
+                (found.net, found.multipliers) = (steady.net, steady.multipliers);
+                found.start = Some(steady.state);
+            }
+            Swims::WithMomentum => {
+                let start = swimmer.start()?;
+                found.path = several(swimmer, &start, strokes.max(1))?;
+                found.net = found.path[1];
+                found.path.truncate(strokes as usize + 1);
+                found.start = Some(start);
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// The positive work of the drives in a period, which each step counts by its sum.
+fn positive_work(
     swimmer: &Swimmer,
     start: &State<Configuration>,
     steps: usize,
-) -> Result<(SE3, f64), GaitError> {
+) -> Result<f64, GaitError> {
     let model = swimmer.model();
     let (mut state, mut work) = (start.clone(), Default::default());
-    let at = |state: &State<Configuration>| SE3::new(state.g.0[0], state.g.1[0].vec3());
-    let first = at(&state);
     let mut gauss = Gauss::new::<2>(swimmer.system());
     let (mut drives, mut positive) = (model.drives(), 0.0);
     let h = swimmer.told().period() / steps as f64;
@@ -192,13 +234,11 @@ fn stepped(
         gauss
             .step_along(&mut state, h, see)
             .map_err(GaitError::Step)?;
-        let gains = drives
-            .iter()
-            .zip(before)
-            .map(|(drive, before)| drive.work - before);
+        let gains = drives.iter().zip(before);
+        let gains = gains.map(|(drive, before)| drive.work - before);
         positive += gains.filter(|gain| *gain > 0.0).sum::<f64>();
     }
-    Ok((first.inverse().compose(&at(&state)), positive))
+    Ok(positive)
 }
 
 /// Where each of several strokes with a momentum leads from the start.
@@ -209,19 +249,11 @@ fn several(
 ) -> Result<Vec<SE3>, GaitError> {
     const STEPS: u32 = 60;
     let mut state = start.clone();
-    let at = |state: &State<Configuration>| SE3::new(state.g.0[0], state.g.1[0].vec3());
-    let first = at(&state).inverse();
-    let mut gauss = Gauss::new::<8>(swimmer.system());
-    let (from, period) = (state.t, swimmer.told().period());
+    let first = place(&state).inverse();
     let mut path = vec![SE3::identity()];
-    for n in 0..strokes {
-        for k in 0..STEPS {
-            state.t = from + period * (f64::from(n) + f64::from(k) / f64::from(STEPS));
-            gauss
-                .step(&mut state, period / f64::from(STEPS))
-                .map_err(GaitError::Step)?;
-        }
-        path.push(first.compose(&at(&state)));
+    for _ in 0..strokes {
+        swimmer.advance(&mut state, swimmer.told().period(), STEPS)?;
+        path.push(first.compose(&place(&state)));
     }
     Ok(path)
 }

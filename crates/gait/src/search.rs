@@ -1,13 +1,8 @@
-//! The best stroke: by sequential quadratic programming (SLSQP), from many starts.
-//!
-//! The gradients are exact. The limits are many: they hold at several times of a stroke. D. Kraft's method takes both. It needs
-//! some tens of evaluations, where methods without gradients need thousands.
+//! The best stroke, from many starts.
 
-use core::cell::RefCell;
 use core::f64::consts::PI;
 
 use articulated_fluid::Scene;
-use slsqp::{Func, StopTols};
 
 use crate::chain::Chain;
 use crate::clearance::Clearance;
@@ -16,11 +11,7 @@ use crate::objective::Objective;
 use crate::stroke::{Fourier, Stroke};
 use crate::swimmer::Swimmer;
 use crate::tree::Moving;
-
-/// A limit may be exceeded by so much of it.
-const SLACK: f64 = 1e-6;
-/// Evaluations from one start, at most.
-const MOST: usize = 500;
+use crate::walk::{Evaluated, Walk};
 
 /// How far and how fast a joint may turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,27 +43,11 @@ pub struct Found {
     pub evaluations: usize,
 }
 
-/// An evaluation, with all that hangs on it.
-#[derive(Clone)]
-struct Evaluated {
-    at: Vec<f64>,
-    value: f64,
-    gradient: Vec<f64>,
-    /// Each at most 0.
-    limits: Vec<(f64, Vec<f64>)>,
-}
-
-impl Evaluated {
-    /// The same where nothing changes.
-    fn at_an_end(mut self) -> Self {
-        self.gradient.fill(0.0);
-        self
-    }
-
-    /// A value that is worse.
-    fn worse(mut self) -> Self {
-        self.value -= 1.0 + self.value.abs();
-        self
+impl Found {
+    /// The best of several, of which some were not found.
+    pub fn best(found: &[Option<Self>]) -> Option<&Self> {
+        let better = |a: &&Self, b: &&Self| a.value.total_cmp(&b.value);
+        found.iter().flatten().max_by(better)
     }
 }
 
@@ -200,89 +175,18 @@ impl Search {
             }
             first => first?,
         };
-        check_size(start.coefficients().len(), first.limits.len())?;
-        let last: RefCell<Evaluated> = RefCell::new(first.clone());
-        let best: RefCell<Option<Found>> = RefCell::new(None);
-        let count = RefCell::new(0);
-        let scale = 1.0 / first.value.abs().max(self.least());
-        let evaluated = |x: &[f64]| -> Evaluated {
-            let known = last.borrow().clone();
-            let is_first = *count.borrow() == 0;
-            if known.at == x && !is_first {
-                return known;
-            }
-            if !go_on() && !is_first {
-                // Nothing changes any more, which ends the search.
-                return known.at_an_end();
-            }
-            *count.borrow_mut() += 1;
-            let found = match known.at == x {
-                true => known,
-                false => match self.evaluate(&start.with(x)) {
-                    Ok(found) => found,
-                    // No steady stroke so far away: worse than the last, so that the search comes back.
-                    Err(_) => return known.worse(),
-                },
-            };
-            let allowed = found.limits.iter().all(|(value, _)| *value <= SLACK);
-            let before = best.borrow().as_ref().map(|best: &Found| best.value);
-            if allowed && before.is_none_or(|before| found.value > before) {
-                *best.borrow_mut() = Some(Found {
-                    stroke: start.with(x),
-                    value: found.value,
-                    evaluations: 0,
-                });
-            }
-            *last.borrow_mut() = found.clone();
-            found
-        };
-        let objective = |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
-            let found = evaluated(x);
-            if let Some(gradient) = gradient {
-                let slopes = gradient.iter_mut().zip(&found.gradient);
-                slopes.for_each(|(to, slope)| *to = -scale * slope);
-            }
-            -scale * found.value
-        };
-        let limit = |k: usize| {
-            let evaluated = &evaluated;
-            move |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
-                let found = evaluated(x);
-                let (value, slopes) = &found.limits[k];
-                if let Some(gradient) = gradient {
-                    gradient.copy_from_slice(slopes);
-                }
-                *value
-            }
-        };
-        let limits: Vec<_> = (0..first.limits.len()).map(limit).collect();
-        let limits: Vec<&dyn Func<()>> =
-            limits.iter().map(|limit| limit as &dyn Func<()>).collect();
         // A wave within ±a may have harmonics of 4 a / π.
-        let most = 4.0 / PI * self.limits.angle;
-        let bounds = vec![(-most, most); start.coefficients().len()];
-        let stop = StopTols {
-            ftol_rel: 1e-10,
-            ..StopTols::default()
-        };
-        // Whether it ended well or gave up: the best that was met counts.
-        let _ = slsqp::minimize(
-            objective,
-            start.coefficients(),
-            &bounds,
-            &limits,
-            (),
-            MOST,
-            Some(stop),
-        );
-        let evaluations = *count.borrow();
-        let Some(found) = best.into_inner() else {
+        let bound = 4.0 / PI * self.limits.angle;
+        let evaluate = |x: &[f64]| self.evaluate(&start.with(x));
+        let ended = Walk::new(first, &evaluate, go_on).climb((bound, self.least()))?;
+        let Some(best) = ended.best else {
             return Ok(None);
         };
+        let stroke = start.with(&best);
         Ok(Some(Found {
-            value: self.value(&found.stroke)?,
-            evaluations,
-            ..found
+            value: self.value(&stroke)?,
+            evaluations: ended.evaluations,
+            stroke,
         }))
     }
 
@@ -304,7 +208,7 @@ impl Search {
             return Err(GaitError::NotFinite { quantity });
         }
         Ok(Evaluated {
-            at: stroke.coefficients().to_vec(),
+            x: stroke.coefficients().to_vec(),
             value,
             gradient,
             limits: self.limits_of(stroke)?,
@@ -334,19 +238,6 @@ impl Search {
             }
         }
         Ok(limits)
-    }
-}
-
-/// Refuses what the optimiser's memory, whose size it counts in 32 bits, would not hold.
-fn check_size(unknowns: usize, limits: usize) -> Result<(), GaitError> {
-    let (n, m) = (unknowns as f64, limits as f64);
-    let memory = (3.0 * (n + 1.0) + m) * (n + 2.0)
-        + (n + 2.0) * (m + 2.0 * n + 4.0)
-        + (m + 3.0 * n + 3.0) * (n + 1.0)
-        + m * (n + 1.0);
-    match memory < 1e8 {
-        true => Ok(()),
-        false => Err(GaitError::TooLarge { limits, unknowns }),
     }
 }
 

@@ -93,12 +93,17 @@ fn coordinate(variation: &Variation<Configuration>, i: usize) -> f64 {
     }
 }
 
+/// Where the first body is.
+pub(crate) fn place(state: &State<Configuration>) -> SE3 {
+    SE3::new(state.g.0[0], state.g.1[0].vec3())
+}
+
 /// Brings the first body back to the origin and the attitude of the reference frame, and tells from where.
 fn bring_back(
     state: &mut State<Configuration>,
     columns: &mut [Variation<Configuration>],
 ) -> (SE3, Vec<Tangent<6>>) {
-    let net = SE3::new(state.g.0[0], state.g.1[0].vec3());
+    let net = place(state);
     let turned = |x: Vec3| net.rotation.inverse_rotate(x);
     let back = net.rotation.inverse();
     for r in state.g.0.iter_mut() {
@@ -214,10 +219,9 @@ fn size(change: &Variation<Configuration>, scales: &Scales) -> f64 {
     let spins = change.mu.0.iter().map(|p| p.vec3().norm());
     let hinges = change.mu.2.iter().map(|p| p[0].abs());
     let angular = spins.chain(hinges).map(|p| p / scales.angular);
-    let momenta = linear
-        .chain(angular)
-        .fold(0.0, |m: f64, x| if x > m || x.is_nan() { x } else { m });
-    change.eta.max_magnitude().max(momenta) + 0.0 * momenta
+    let all = linear.chain(angular).chain([change.eta.max_magnitude()]);
+    // What is not a number stays one.
+    all.fold(0.0, |m: f64, x| if m.is_nan() || x <= m { m } else { x })
 }
 
 /// Solves $(1 - P_z) x = b$. A momentum that is kept stays what it is, by six further rows: then $1 - P_z$ alone is singular.

@@ -1,24 +1,26 @@
 //! A tree whose prescribed joints do a stroke, so that its motion can be differentiated by the stroke.
 
-use core::f64::consts::TAU;
 use core::ops::Range;
 
 use articulated_fluid::{ArticulatedBody, Configuration, Evaluation};
 use dvi::{Context, ContinuousSystem, System};
-use lie::{AlgebraOver, DualOver, Scalar};
+use lie::{AlgebraOver, DualOver, SO3, Scalar, Vec3};
 
 use crate::joint::Steered;
-use crate::stroke::{Fourier, Stroke};
+use crate::stroke::Fourier;
 
-/// A tree whose prescribed joints do a stroke, whose coefficients are its parameters.
+/// A tree whose prescribed joints do as they are told, or a stroke whose coefficients are its parameters.
 pub(crate) struct SteeredTree {
     tree: ArticulatedBody,
+    steering: Option<Steering>,
+}
+
+/// A stroke, and what does it.
+struct Steering {
     joints: Vec<(usize, Steered)>,
-    order: usize,
-    /// $2 \pi / T$.
-    omega: f64,
+    stroke: Fourier,
+    /// When it begins, s.
     from: f64,
-    coefficients: Vec<f64>,
 }
 
 impl SteeredTree {
@@ -26,11 +28,7 @@ impl SteeredTree {
     pub(crate) fn as_told(tree: ArticulatedBody) -> Self {
         Self {
             tree,
-            joints: Vec::new(),
-            order: 0,
-            omega: 0.0,
-            from: 0.0,
-            coefficients: Vec::new(),
+            steering: None,
         }
     }
 
@@ -44,32 +42,38 @@ impl SteeredTree {
                 joints.push((joint.child, steered));
             }
         }
+        let stroke = stroke.clone();
         Self {
             tree,
-            joints,
-            order: stroke.order(),
-            omega: TAU / stroke.period(),
-            from,
-            coefficients: stroke.coefficients().to_vec(),
+            steering: Some(Steering {
+                joints,
+                stroke,
+                from,
+            }),
         }
     }
+}
 
-    /// The shape and its rates, of these coefficients.
-    fn shape<S: Scalar>(&self, at: Context<S>) -> [Vec<S>; 2] {
+impl Steering {
+    /// The attitudes and rates that joints have by these coefficients.
+    fn motions<S: Scalar>(
+        &self,
+        at: Context<S>,
+    ) -> impl Iterator<Item = (usize, (SO3<S>, Vec3<S>))> {
         let t = at.t - S::from_f64(self.from);
-        let mut bases = [vec![S::one()], vec![S::zero()]];
-        for multiple in (1..=self.order).map(|k| self.omega * k as f64) {
-            let (sin, cos) = t.times(multiple).sin_cos();
-            bases[0].extend([cos, sin]);
-            bases[1].extend([-sin.times(multiple), cos.times(multiple)]);
-        }
-        bases.map(|basis| {
+        let [q, rates] = [0, 1].map(|k| {
+            let basis = self.stroke.basis(t, k);
             let of_one = |own: &[S]| {
                 let each = own.iter().zip(&basis);
                 each.fold(S::zero(), |sum, (c, phi)| sum + *c * *phi)
             };
-            at.all.chunks_exact(basis.len()).map(of_one).collect()
-        })
+            at.all
+                .chunks_exact(basis.len())
+                .map(of_one)
+                .collect::<Vec<S>>()
+        });
+        let joints = self.joints.iter();
+        joints.map(move |(body, joint)| (*body, joint.at(&q, &rates)))
     }
 }
 
@@ -77,7 +81,8 @@ impl System for SteeredTree {
     type Group = Configuration;
 
     fn parameters(&self) -> &[f64] {
-        &self.coefficients
+        let steering = self.steering.as_ref();
+        steering.map_or(&[], |steering| steering.stroke.coefficients())
     }
 
     fn cyclic(&self) -> Range<usize> {
@@ -115,11 +120,8 @@ impl ContinuousSystem for SteeredTree {
         xi: &mut AlgebraOver<Configuration, S>,
         tau: &mut DualOver<Configuration, S>,
     ) {
-        if !self.joints.is_empty() {
-            let [q, rates] = self.shape(at);
-            let motions = self.joints.iter();
-            let motions = motions.map(|(body, joint)| (*body, joint.at(&q, &rates)));
-            work.steer(&self.tree, at.t, motions);
+        if let Some(steering) = &self.steering {
+            work.steer(&self.tree, at.t, steering.motions(at));
         }
         let at = Context::new(at.t, &[]);
         self.tree.velocity_and_force(at, g, mu, work, xi, tau);

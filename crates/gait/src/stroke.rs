@@ -1,10 +1,11 @@
 //! Closed paths in the space of shapes.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use articulated_fluid::motion::Law;
 use articulated_fluid::{ArticulatedBody, JointKind, Motion};
+use lie::Scalar;
 
 use crate::error::GaitError;
 
@@ -126,7 +127,7 @@ impl Fourier {
         const SAMPLES: u32 = 512;
         check_order(order)?;
         let period = stroke.period();
-        let basis = |t: f64| Basis::new(order, TAU / period, t, 0).0;
+        let basis = |t: f64| waves(order, TAU / period, t, 0);
         let times = (0..SAMPLES).map(|i| period * f64::from(i) / f64::from(SAMPLES));
         let mut coefficients = Vec::new();
         for t in times {
@@ -189,8 +190,8 @@ impl Fourier {
     }
 
     /// The `k`-th derivatives of $1, \cos \omega t, \sin \omega t, \cos 2 \omega t, \dots$.
-    pub(crate) fn basis(&self, t: f64, k: u32) -> Vec<f64> {
-        Basis::new(self.order, TAU / self.period, t, k).0
+    pub(crate) fn basis<S: Scalar>(&self, t: S, k: u32) -> Vec<S> {
+        waves(self.order, TAU / self.period, t, k)
     }
 }
 
@@ -204,18 +205,16 @@ fn check_order(order: usize) -> Result<(), GaitError> {
     }
 }
 
-struct Basis(Vec<f64>);
-
-impl Basis {
-    fn new(order: usize, omega: f64, t: f64, k: u32) -> Self {
-        let mut all = vec![if k == 0 { 1.0 } else { 0.0 }];
-        for multiple in (1..=order).map(|multiple| multiple as f64 * omega) {
-            let angle = multiple * t + f64::from(k % 4) * core::f64::consts::FRAC_PI_2;
-            let scale = multiple.powi(k as i32);
-            all.extend([scale * angle.cos(), scale * angle.sin()]);
-        }
-        Self(all)
+/// The `k`-th derivatives of $1, \cos \omega t, \sin \omega t, \cos 2 \omega t, \dots$.
+fn waves<S: Scalar>(order: usize, omega: f64, t: S, k: u32) -> Vec<S> {
+    let mut all = vec![S::from_f64(if k == 0 { 1.0 } else { 0.0 })];
+    let quarters = S::from_f64(f64::from(k % 4) * FRAC_PI_2);
+    for multiple in (1..=order).map(|multiple| multiple as f64 * omega) {
+        let (sin, cos) = (t.times(multiple) + quarters).sin_cos();
+        let scale = multiple.powi(k as i32);
+        all.extend([cos.times(scale), sin.times(scale)]);
     }
+    all
 }
 
 impl Stroke for Fourier {

@@ -40,13 +40,13 @@ impl Swimmer {
         if scene.mount.is_some() {
             return Err(GaitError::Held);
         }
-        let model = scene.model().map_err(GaitError::Model)?;
+        let model = scene.model()?;
         if !floats(scene) {
             return Err(GaitError::Weight);
         }
         let told = Told::new(&model)?;
         Ok(Self {
-            start: scene.initial_state().map_err(GaitError::Model)?,
+            start: scene.initial_state()?,
             scales: scales(&model, told.period()),
             told,
             model,
@@ -96,17 +96,27 @@ impl Swimmer {
     /// [`GaitError::Step`].
     pub fn start(&self) -> Result<State<Configuration>, GaitError> {
         let mut state = self.start.clone();
-        let (from, h) = (self.told.from(), self.told.period() / f64::from(2 * STEPS));
-        let steps = (from / h).ceil();
-        let mut gauss = Gauss::new::<4>(self.system());
-        for k in 0..steps as u64 {
-            state.t = from * k as f64 / steps;
-            gauss
-                .step(&mut state, from / steps)
-                .map_err(GaitError::Step)?;
-        }
-        state.t = from;
+        let from = self.told.from();
+        let steps = (from / self.told.period() * f64::from(2 * STEPS)).ceil();
+        self.advance(&mut state, from, steps as u32)?;
         Ok(state)
+    }
+
+    /// Steps a state by so many equal steps, s, of Gauss's method of eight stages.
+    pub(crate) fn advance(
+        &self,
+        state: &mut State<Configuration>,
+        span: f64,
+        steps: u32,
+    ) -> Result<(), GaitError> {
+        let (from, h) = (state.t, span / f64::from(steps.max(1)));
+        let mut gauss = Gauss::new::<8>(self.system());
+        for k in 0..steps {
+            state.t = from + f64::from(k) * h;
+            gauss.step(state, h).map_err(GaitError::Step)?;
+        }
+        state.t = from + span;
+        Ok(())
     }
 
     /// What the joints are told.
@@ -127,7 +137,8 @@ impl Swimmer {
         let mut steps = STEPS;
         let mut found = match steady(self.system(), &start, (self.period(steps), self.scales)) {
             Err(GaitError::NotSteady { .. }) => {
-                self.settle(&mut start)?;
+                let span = f64::from(SETTLING) * self.told.period();
+                self.advance(&mut start, span, SETTLING * STEPS)?;
                 steady(self.system(), &start, (self.period(steps), self.scales))?
             }
             found => found?,
@@ -182,15 +193,6 @@ impl Swimmer {
             length: self.told.period(),
             steps,
         }
-    }
-
-    fn settle(&self, state: &mut State<Configuration>) -> Result<(), GaitError> {
-        let mut gauss = Gauss::new::<4>(self.system());
-        let h = self.told.period() / f64::from(STEPS);
-        for _ in 0..SETTLING * STEPS {
-            gauss.step(state, h).map_err(GaitError::Step)?;
-        }
-        Ok(())
     }
 }
 

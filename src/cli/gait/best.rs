@@ -58,9 +58,7 @@ pub(super) fn search(
     );
     drop(bar);
     let found = found.map_err(fail)?;
-    let better = |a: &&Found, b: &&Found| a.value.total_cmp(&b.value);
-    let best = found.iter().flatten().max_by(better);
-    let best = best.ok_or_else(|| match interrupt.signal() {
+    let best = Found::best(&found).ok_or_else(|| match interrupt.signal() {
         Some(signal) => CliError::Stopped { signal },
         None => fail(GaitError::NoStroke),
     })?;

@@ -24,6 +24,9 @@ const NAMES: [(&str, &str); 6] = [
 /// A map whose values are below this part of the largest of its kind is one of rounding.
 const NOTHING: f64 = 1e-9;
 
+/// Of a map, in pixels: three in a row are about as wide.
+const HEIGHT: f64 = 560.0;
+
 /// Draws the maps around the scene's stroke.
 pub(super) fn draw(args: &Args, scene: &Scene, stem: &Path) -> Result<(), CliError> {
     let fail = |source| failed(args, source);
@@ -85,12 +88,12 @@ fn picture(scene: &Scene, chain: &Chain, maps: &HeightMaps) -> Figure {
         title: title.to_owned(),
         columns: panels.len().clamp(1, 3),
         labels: Labels::Ends,
+        plot_height: HEIGHT,
         notes: vec![
             "Height functions in the body coordinates whose connection is least over the map. Red is positive, of a loop from the first coordinate to the second.".to_owned(),
             format!("Net motion without momentum and loads, by the areas (turn, rad; advance, m): {}. Exactly: {}.", told(&by_area), told(&exact)),
         ],
         panels,
-        ..Figure::default()
     }
 }
 

@@ -96,9 +96,8 @@ const COUPLING: &str = "the bodies' coupling through the fluid is left out: 4 to
 
 fn objective() -> impl TypedValueParser<Value = Objective> {
     let value = |objective: Objective| PossibleValue::new(objective.name()).help(help(objective));
-    let named = |name: String| Objective::ALL.into_iter().find(|of| of.name() == name);
     PossibleValuesParser::new(Objective::ALL.map(value))
-        .try_map(move |name| named(name).ok_or("no such objective"))
+        .try_map(|name| Objective::named(&name).ok_or("no such objective"))
 }
 
 fn help(objective: Objective) -> &'static str {

@@ -68,7 +68,8 @@ impl<G: RealGroup> Update<G> {
         self.known = false;
     }
 
-    /// The state after the displacement `f` and the impulse, the latter in the frame of the step's start, or with the momentum `transported`; `None` where a number is not finite, or where the system is not defined.
+    /// The state after the displacement `f` and the impulse. The impulse is in the frame of the step's start, or comes with the momentum
+    /// `transported`. `None` where a number is not finite, or the system is not defined.
     pub(super) fn advance<C: ContinuousSystem<Group = G>>(
         &mut self,
         system: &C,

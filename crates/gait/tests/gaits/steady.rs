@@ -2,7 +2,7 @@
 
 use articulated_fluid::Scene;
 use dvi::{Gauss, Integrator};
-use gait::{Chain, Fourier, GaitError, Limits, Objective, Search, Swimmer, net_motion};
+use gait::{Chain, Fourier, GaitError, Limits, Objective, Search, Steady, Swimmer, net_motion};
 use lie::{LieGroup, SE3, VectorSpace};
 
 use crate::swimmers::Plain;
@@ -67,44 +67,36 @@ fn apart(a: &SE3, b: &SE3) -> f64 {
     change.translation.norm() + change.rotation.matrix().skew_vee().norm()
 }
 
-/// The net motion of the 80th period: disturbances have died out by the largest multiplier to the 80th.
+/// The steady stroke of a scene, which its own motion comes to: that of the 80th period, when disturbances have died out by the largest
+/// multiplier to the 78th.
+#[track_caller]
+fn comes_to_its_stroke(scene: &Scene) -> Steady {
+    let swimmer = Swimmer::new(scene).expect("a swimmer");
+    let (steady, steps) = swimmer.steady().expect("a stroke");
+    println!("{steps} steps, multipliers {:?}", steady.multipliers);
+    assert!(steady.is_stable(), "{:?}", steady.multipliers);
+    let left = steady.largest_multiplier().powi(78);
+    let found = after(scene, 80);
+    assert!(
+        apart(&steady.net, &found) < 1e-8 + left,
+        "{:?} {found:?}",
+        steady.net
+    );
+    steady
+}
+
 #[test]
 fn a_braked_swimmer_comes_to_its_steady_stroke() {
     for tail in [DRIVEN, SPRUNG] {
-        let scene = braked(tail, 2.0);
-        let (steady, steps) = Swimmer::new(&scene)
-            .expect("a swimmer")
-            .steady()
-            .expect("a stroke");
-        println!("{steps} steps, multipliers {:?}", steady.multipliers);
-        assert!(steady.is_stable(), "{:?}", steady.multipliers);
-        let left = steady.largest_multiplier().powi(78);
-        let found = after(&scene, 80);
-        assert!(
-            apart(&steady.net, &found) < 1e-8 + left,
-            "{:?} {found:?}",
-            steady.net
-        );
+        comes_to_its_stroke(&braked(tail, 2.0));
     }
 }
 
 /// Without drag the momentum is kept, and a tail on a spring with a damper comes to its stroke all the same.
 #[test]
 fn a_tail_on_a_spring_comes_to_its_stroke_without_drag() {
-    let scene = braked(SPRUNG, 0.0);
-    let (steady, _) = Swimmer::new(&scene)
-        .expect("a swimmer")
-        .steady()
-        .expect("a stroke");
-    println!("multipliers {:?}", steady.multipliers);
-    assert!(steady.is_stable() && steady.multipliers.len() == 2);
-    let left = steady.largest_multiplier().powi(78);
-    let found = after(&scene, 80);
-    assert!(
-        apart(&steady.net, &found) < 1e-8 + left,
-        "{:?} {found:?}",
-        steady.net
-    );
+    let steady = comes_to_its_stroke(&braked(SPRUNG, 0.0));
+    assert!(steady.multipliers.len() == 2);
 }
 
 /// Lengths of a thousandth in a fluid as dense, with drag to match: the same motion, a thousand times smaller.
