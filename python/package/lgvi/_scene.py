@@ -203,8 +203,8 @@ class Scene:
         starts     how many strokes the search starts from; the same ones each time.
         progress   True, or a function of the starts done.
 
-        Bodies with semi-axes do not overlap. Limits hold at several times of the stroke; between them they may be
-        exceeded by some 3 %. The gradients are exact, and the optimiser is SLSQP. All joints are told. With drag or thrust
+        Bodies with semi-axes do not overlap, at several times of the stroke. Angles and rates are within their limits at
+        all times. The gradients are exact, and the optimiser is SLSQP. All joints are told. With drag or thrust
         it is the best steady stroke. Raises ``ValueError`` where no stroke within the limits is found.
 
         >>> best = swimmer.best_gait("advance-per-work")

@@ -76,7 +76,7 @@ Work:
 
 Best stroke:
   Each coordinate of the shape is a Fourier series, whose coefficients are the unknowns; the period stays the scene's. Bodies with
-  semi-axes do not overlap. Limits hold at several times of the stroke; between them they may be exceeded by some 3 percent.
+  semi-axes do not overlap, at several times of the stroke. Angles and rates are within their limits at all times.
   The gradient is exact, and the optimiser is SLSQP. With drag or thrust it is the best steady stroke. An interrupt keeps the best stroke so far.
 
 Maps:

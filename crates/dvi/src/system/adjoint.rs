@@ -106,8 +106,7 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for Adjoint<L> {
         g.compose_into(f, end);
         f.inverse_into(back);
         let at_end = at.at(at.t + h);
-        self.0
-            .derivatives(at_end, end, back, -h, &mut work.other, out);
+        out.find(&self.0, at_end, (end, back), -h, &mut work.other);
         f.coadjoint_into(&out.d_f, momentum);
         momentum.add_scaled(-S::one(), &out.d_g);
         core::mem::swap(&mut out.d_f, momentum);

@@ -280,6 +280,19 @@ impl<G: RealGroup, S: Scalar> Derivatives<G, S> {
         }
     }
 
+    /// Fills both by the Lagrangian in a function of its own: it is compiled once for all that do not count in the time of a step.
+    #[inline(never)]
+    pub(crate) fn find<L: DiscreteLagrangian<Group = G>>(
+        &mut self,
+        lagrangian: &L,
+        at: Context<S>,
+        (g, f): (&Over<G, S>, &Over<G, S>),
+        h: S,
+        work: &mut L::Workspace<S>,
+    ) {
+        lagrangian.derivatives(at, g, f, h, work, self);
+    }
+
     /// Lets the formulas in the memory of a system be recorded, which has to stay as it is.
     pub(crate) fn settle<L: ?Sized>(&mut self, system: &L) {
         self.home = Home::of(system);

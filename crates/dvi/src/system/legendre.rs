@@ -40,6 +40,6 @@ fn derivatives<L: DiscreteLagrangian>(
 ) -> Derivatives<L::Group, f64> {
     let mut out = Derivatives::new(g);
     let (at, mut work) = (Context::new(t, lagrangian.parameters()), Default::default());
-    lagrangian.derivatives(at, g, f, h, &mut work, &mut out);
+    out.find(lagrangian, at, (g, f), h, &mut work);
     out
 }

@@ -58,7 +58,7 @@ impl<L: DiscreteLagrangian, S: Scalar> Balance<L, S> {
     ) {
         let (at, work) = (Context::new(t, &self.parameters), &mut self.workspace);
         self.derivatives.settle(lagrangian);
-        lagrangian.derivatives(at, g, &self.f, h, work, &mut self.derivatives);
+        self.derivatives.find(lagrangian, at, (g, &self.f), h, work);
         self.transport(mu);
     }
 

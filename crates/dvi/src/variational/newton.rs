@@ -263,7 +263,7 @@ impl<L: DiscreteLagrangian> Newton<L> {
                 let at = Context::new(J::constant(state.t), &balance.parameters);
                 let (work, out) = (&mut balance.workspace, &mut balance.derivatives);
                 out.settle(lagrangian);
-                lagrangian.derivatives(at, &this.g, &balance.f, J::constant(h), work, out);
+                out.find(lagrangian, at, (&this.g, &balance.f), J::constant(h), work);
                 for direction in 0..lie::JET_DIRECTIONS.min(sparsity.count - first) {
                     for i in 0..this.rhs.len() {
                         let slope = balance.derivatives.d_f.get(i).partial(direction);
@@ -411,7 +411,7 @@ fn inertia<L: DiscreteLagrangian>(
     for_each_chunk(dim, |first| {
         lie::seed(&mut c, first);
         Over::<L::Group, J>::retract_into::<Cayley>(&c, &mut f);
-        lagrangian.derivatives(at, &g, &f, step, &mut work, &mut derivatives);
+        derivatives.find(lagrangian, at, (&g, &f), step, &mut work);
         set_columns(inertia.columns_mut(first), |row, direction| {
             h * derivatives.d_f.get(row).partial(direction)
         });

@@ -459,11 +459,11 @@ impl<L: DiscreteLagrangian> Work<L> {
         other.residual.copy_from(&self.balance.residual);
         shake(&mut other.state.mu, &new(time));
         shake(&mut self.c, &new(time));
-        self.evaluate(lagrangian, &other.state, h);
+        self.evaluate_apart(lagrangian, &other.state, h);
         other.residual.add_scaled(-1.0, &self.balance.residual);
         self.sizes.raise_noise(&other.residual, shaker.times());
         self.c.copy_from(&other.c);
-        self.evaluate(lagrangian, state, h);
+        self.evaluate_apart(lagrangian, state, h);
         self.shaken = Some(other);
         self.residual();
         self.is_settled(tolerance)
@@ -482,12 +482,12 @@ impl<L: DiscreteLagrangian> Work<L> {
     ) -> bool {
         let here = self.c.clone();
         self.c.read(&self.coordinates);
-        self.evaluate(lagrangian, state, h);
+        self.evaluate_apart(lagrangian, state, h);
         for time in 1..=MEASUREMENTS {
             self.is_noise(lagrangian, (state, h), (tolerance, time));
         }
         self.c.copy_from(&here);
-        self.evaluate(lagrangian, state, h);
+        self.evaluate_apart(lagrangian, state, h);
         self.residual();
         self.is_settled(tolerance)
     }
@@ -507,6 +507,12 @@ impl<L: DiscreteLagrangian> Work<L> {
         self.matrix
             .derivatives(lagrangian, (state, h), own, at, derivatives);
         self.balance.transport(&state.mu);
+    }
+
+    /// The same in a function of its own: it is compiled once for all but the iteration.
+    #[inline(never)]
+    fn evaluate_apart(&mut self, lagrangian: &L, state: &State<L::Group>, h: f64) {
+        self.evaluate(lagrangian, state, h);
     }
 
     /// Solves the cyclic equations on to rounding, so that their momentum map does not feel the tolerance; the iterations, or none where they
@@ -547,7 +553,7 @@ impl<L: DiscreteLagrangian> Work<L> {
                 return Some(iterations);
             }
             self.c.add_scaled(-1.0, &self.cyclic_delta);
-            self.evaluate(lagrangian, state, h);
+            self.evaluate_apart(lagrangian, state, h);
         }
         None
     }
@@ -585,7 +591,7 @@ fn weights<L: DiscreteLagrangian>(
             c.set(i, displacement);
         }
         L::Group::retract_into::<Cayley>(&c, &mut f);
-        lagrangian.derivatives(at, g, &f, SHORT * h, &mut work, &mut derivatives);
+        derivatives.find(lagrangian, at, (g, &f), SHORT * h, &mut work);
         derivatives.d_f.clone()
     };
     let still = momenta(0.0, 0);

@@ -83,7 +83,7 @@ fn by_duals<L: DiscreteLagrangian>(
         state.g.identity_like(),
     );
     let mut work = Default::default();
-    lagrangian.derivatives(at, &state.g, &still, h, &mut work, &mut derivatives);
+    derivatives.find(lagrangian, at, (&state.g, &still), h, &mut work);
     matches!(derivatives.means, Means::DualNumbers { .. })
 }
 

@@ -1,6 +1,6 @@
 //! The best strokes of a swimmer whose best ones are known.
 
-use gait::{Effort, Fourier, Limits, Objective, Search, net_motion};
+use gait::{Effort, Fourier, Limits, Objective, Search, Stroke, net_motion};
 
 use crate::swimmers::three_links;
 
@@ -50,6 +50,52 @@ fn the_best_circle_is_that_which_is_known() {
     let (r, best) = best_of(ratio, [0.5, 1.5]);
     assert!((r - 1.0501).abs() < 5e-5, "{r}");
     assert!((best - 0.715573154).abs() < 5e-10, "{best}");
+}
+
+/// The best ellipse of the family $r$, $\varphi$, found without a gradient.
+#[test]
+fn the_best_ellipse_lies_between_the_best_circle_and_the_best_of_one_harmonic() {
+    let search = search();
+    let ratio = |r: f64, phase: f64| {
+        let value = Objective::AdvancePerLength.of(search.chain(), &ellipse(r, phase));
+        value.expect("a ratio")
+    };
+    let of_phase = |phase: f64| best_of(|r| ratio(r, phase), [0.5, 1.5]);
+    let (phase, best) = best_of(|phase| of_phase(phase).1, [0.8, 2.2]);
+    let (r, _) = of_phase(phase);
+    println!("r = {r:.6}, phase = {phase:.6}: {best:.9}");
+    let free = search
+        .improve(&ellipse(r, phase), &|| true)
+        .expect("an evaluation")
+        .expect("a stroke");
+    println!("free, with a bias: {:.9}", free.value);
+    assert!(best > 0.715573154 && best <= free.value, "{best}");
+}
+
+/// Between the times at which a search looks at them, too.
+#[test]
+fn angles_and_rates_are_within_their_limits_at_all_times() {
+    let motion = "{ amplitude = 0.5, frequency = 1, phase = 0 }";
+    for (angle, rate) in [(0.7, f64::INFINITY), (2.0, 5.0), (0.7, 4.0)] {
+        let limits = Limits { angle, rate };
+        let scene = three_links([motion; 2]);
+        let search = Search::new(&scene, Objective::Advance, limits).expect("a search");
+        for order in [1, 2, 5] {
+            let start = Fourier::fit(&ellipse(0.5, 1.4), order).expect("a stroke");
+            let found = search.improve(&start, &|| true).expect("an evaluation");
+            let stroke = found.expect("a stroke").stroke;
+            let largest = |k: u32| {
+                let shapes = (0..4096).map(|i| stroke.derivative(f64::from(i) / 4096.0, k));
+                shapes.flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
+            };
+            let nearest = (largest(0) / angle).max(largest(1) / rate);
+            assert!(nearest < 1.0 + 1e-6, "{order}: {nearest}");
+            assert!(
+                nearest > 0.98,
+                "a limit is what ends it: {order}: {nearest}"
+            );
+        }
+    }
 }
 
 /// Each family holds the one before.
