@@ -22,7 +22,7 @@ MOST_WORDS = 30
 SHORT = re.compile(r"(?:\b[A-Z]|\b(?:e\.g|i\.e|cf|Sec|sec|ch|ed|vs|No|Phys|Lett|Math|Comp|Appl|Numer|Comput|Future|Gener|Syst|Sci|Int|J|Proc|resp))\.$")
 END = re.compile(r"(?<=[.!?])[)*\"”]*\s+(?=[^a-z\s])")
 STRING = re.compile(r'(?<![\w#r\'])"((?:[^"\\]|\\.)*)"', re.S)
-ITEM = re.compile(r"\s*(?:[-*+]|\d+\.)\s+|\s*#+\s+|\s*>\s*")
+ITEM = re.compile(r"^\s*(?:(?:[-*+]|\d+\.)\s+|#+\s+|>\s*)")
 
 
 def turns():
