@@ -17,7 +17,17 @@ pub use dvi;
 pub use lie;
 pub use sim;
 
-/// Compiles and runs the README's code.
+/// Compiles and runs the code of the README and of the pages; that of the [`guide`] runs with it.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct Readme;
+#[doc = include_str!("../docs/introduction.md")]
+#[doc = include_str!("../docs/scenes.md")]
+#[doc = include_str!("../docs/joints-and-loads.md")]
+#[doc = include_str!("../docs/gaits.md")]
+#[doc = include_str!("../docs/urdf.md")]
+#[doc = include_str!("../docs/methods.md")]
+#[doc = include_str!("../docs/failures.md")]
+#[doc = include_str!("../docs/speed.md")]
+#[doc = include_str!("../docs/python.md")]
+#[doc = include_str!("../docs/notation.md")]
+struct Pages;

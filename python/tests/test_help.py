@@ -8,6 +8,7 @@ import lgvi
 import pytest
 
 README = Path(__file__).resolve().parents[1] / "README.md"
+REPOSITORY = README.parents[1]
 
 
 @pytest.mark.parametrize("name", lgvi.__all__)
@@ -49,3 +50,13 @@ def test_the_page_is_true(tmp_path, monkeypatch):
     for block in code:
         exec(block.replace("1000)]", "20)]"), names)
     assert names["batch"].stack("position").shape == (20, 3, 3, 3)
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/urdf.md"])
+def test_the_blocks_of_a_page_run(page, tmp_path, monkeypatch):
+    (tmp_path / "scenes").symlink_to(REPOSITORY / "scenes")
+    monkeypatch.chdir(tmp_path)
+    code = re.findall(r"```python\n(.*?)```", (REPOSITORY / page).read_text(encoding="utf-8"), re.S)
+    assert code
+    for block in code:
+        exec(block.replace("1000)]", "20)]"), {})

@@ -20,7 +20,7 @@ use super::summary::{Origin, Summary};
 
 /// Simulate a scene, and tell how well the motion's constants were kept.
 ///
-/// Steps the scene's bodies from t = 0 with a Lie group variational integrator, and ends with a summary: the
+/// Steps the scene's bodies from t = 0 with a Lie group variational integrator. It ends with a summary: the
 /// cost of a step and the errors of energy, momenta and rotations. With --out the run becomes a table, a moving picture, or both.
 #[derive(clap::Args)]
 #[command(after_long_help = after_long_help())]
@@ -30,7 +30,7 @@ pub struct Args {
     /// Estimate the trajectory's error by runs in steps twice and four times as long; needless with --accuracy
     #[arg(long)]
     estimate: bool,
-    /// Write the run to this file, whole or not at all: .csv a table, .html a page with a moving picture, .glb glTF for editors, .npz NumPy arrays; may be given several times
+    /// Write the run to this file, whole or not at all; may be given several times. Its ending chooses: .csv a table, .html a page with a moving picture, .glb glTF for editors, .npz NumPy arrays
     #[arg(long, value_name = "FILE")]
     out: Vec<PathBuf>,
     /// Write all columns to the CSV file: also the bodies' places, the head's velocity, the centre of mass and the angular momentum about it

@@ -68,8 +68,8 @@ fn coupled_rotation<S: Scalar>(coupling: Mat3, e: &Mat3<S>, y: Vec3<S>) -> Vec3<
     (x * trace - *e * x) * S::from_f64(0.5)
 }
 
-/// What the derivatives need of a body, all in its own frame: the rows of $E_i = F_i - I$; the displacement of its joint,
-/// $B_i$ of (28); that of its centre, $Y_i = B_i - E_i d_{ip}$; and the sum of the momenta on the joints that it carries.
+/// What the derivatives need of a body, all in its own frame. These are the rows of $E_i = F_i - I$, the displacement of its joint,
+/// $B_i$ of (28), and that of its centre, $Y_i = B_i - E_i d_{ip}$. The last is the sum of the momenta on the joints that it carries.
 type Moved<S> = [Vec3<S>; 6];
 
 #[inline(always)]

@@ -77,8 +77,8 @@ impl Ellipsoid {
     ///
     /// # Errors
     ///
-    /// [`EllipsoidError::NotPositive`] unless each is finite and $> 0$;
-    /// [`EllipsoidError::OutOfRange`] if $abc$ or $abc a_i^2$ is no normal number;
+    /// [`EllipsoidError::NotPositive`] unless each is finite and $> 0$.
+    /// [`EllipsoidError::OutOfRange`] if $abc$ or $abc a_i^2$ is no normal number.
     /// [`EllipsoidError::TooUnequal`] if a shape factor or a squared ratio of axes is no normal
     /// number (ratios above $10^{150}$ or so).
     pub fn new(semi_axes: [f64; 3]) -> Result<Self, EllipsoidError> {
@@ -160,8 +160,8 @@ impl Ellipsoid {
     /// $$ J_1 = \frac{\rho V}5(b^2+c^2) \delta^2 \frac{x}{1-x}, \qquad 0 < x < 1 , $$
     ///
     /// and $x \le \tfrac12$ where $\delta \to 0$. The difference quotients lose a factor
-    /// $1/\delta$, so the relative error is a few $\varepsilon/\delta$ and, for small
-    /// $\delta$, the absolute error a few $\varepsilon\delta$ of the inertia
+    /// $1/\delta$, so the relative error is a few $\varepsilon/\delta$. For small
+    /// $\delta$ the absolute error is a few $\varepsilon\delta$ of the inertia
     /// $\tfrac{\rho V}5(b^2+c^2)$ of the displaced fluid. Below $\delta = 10^{-8}$, where
     /// $J_1$ itself is below $\varepsilon$ of that inertia, 0 is returned.
     ///

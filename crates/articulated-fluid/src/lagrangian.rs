@@ -80,8 +80,8 @@ impl<S: Scalar> Default for Evaluation<S> {
 }
 
 impl<S: Scalar> Evaluation<S> {
-    /// Lets prescribed joints of a tree do other motions than they are told, in the next evaluation at the time `t`, s: of each body
-    /// the attitude on its parent, and the rate of it in the body's frame, rad/s.
+    /// Lets prescribed joints of a tree do other motions than they are told, in the next evaluation at the time `t`, s. A motion is the
+    /// attitude of each body on its parent, and the rate of it in the body's frame, rad/s.
     ///
     /// So a stroke can be differentiated by its own numbers. What follows belongs to these motions until they are given anew.
     pub fn steer(

@@ -32,9 +32,9 @@
 //! | (34)–(38), (39)–(46): stepping maps | [`Variational`](dvi::Variational) |
 //! | linear and angular momentum | [`Conserved`] |
 //!
-//! The print is not right everywhere, and the formulas here are the mended ones. What matters to a reader: the couplings in
-//! (22) are taken at the left end alone, so the method is of order 1, not a trapezoidal rule; the joints of the tails in
-//! Sec. V have the opposite sign; and the density there is $1/(32 \pi)$ kg/m³.
+//! The print is not right everywhere, and the formulas here are the mended ones. Three things matter to a reader. The couplings in
+//! (22) are taken at the left end alone, so the method is of order 1, not a trapezoidal rule. The joints of the tails in
+//! Sec. V have the opposite sign. The density there is $1/(32 \pi)$ kg/m³.
 //!
 //! [`scene`] reads scenes from files.
 //!
@@ -83,7 +83,7 @@
 //!
 //! # Motion in a plane
 //! Where bodies, joints and motion are symmetric under a mirror, [`planar`] restricts both Lagrangians to the plane, on
-//! $SO(2) \times \mathbb{R}^2 \times SO(2)^n$: [`Plane::find`](planar::Plane::find) finds it, and
+//! $SO(2) \times \mathbb{R}^2 \times SO(2)^n$. [`Plane::find`](planar::Plane::find) finds it.
 //! [`Viewed`] steps the states in space, exactly in the plane and at little more than half the cost.
 
 mod account;
@@ -128,3 +128,8 @@ pub use scene::{Scene, SceneError};
 pub use smallest::Smallest;
 pub use tree::{ArticulatedBody, Configuration};
 pub use views::{Comoving, Drift, Rerooted, View, Viewed};
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

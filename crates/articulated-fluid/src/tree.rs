@@ -15,8 +15,8 @@ use crate::node::{Body, Joint, Node};
 
 /// What the joints leave free, grouped by kind: attitudes, the position of a free base, hinge angles.
 ///
-/// On ball joints with a free base it is the paper's direct product $SO(3)^{n+1} \times \mathbb{R}^3$, $g = ((R_0, \dots, R_n), x)$:
-/// $R_i$ maps body $i$'s frame to the reference frame, and $x$, the only factor of its kind, is the mass centre of the first body, in metres.
+/// On ball joints with a free base it is the paper's direct product $SO(3)^{n+1} \times \mathbb{R}^3$, $g = ((R_0, \dots, R_n), x)$.
+/// $R_i$ maps body $i$'s frame to the reference frame. $x$, the only factor of its kind, is the mass centre of the first body, in metres.
 /// A hinge has its angle, in rad and not wrapped, and a prescribed joint nothing; a base on the world has no $x$.
 pub type Configuration<S = f64> = (Power<SO3<S>>, Power<R3<S>>, Power<Rn<1, S>>);
 
@@ -28,7 +28,7 @@ pub(crate) type Momentum<S = f64> = DualOver<Configuration, S>;
 /// Rigid bodies on ball joints in a perfect fluid: a tree with a free base.
 ///
 /// The model of T. Lee, M. Leok and N. H. McClamroch, *Dynamics of connected rigid bodies in a perfect fluid* (2009),
-/// for any number of bodies, each on any other; [`formulas`](crate::formulas) derives it. Evaluations, the inertia solve
+/// for any number of bodies, each on any other. [`formulas`](crate::formulas) derives it. Evaluations, the inertia solve
 /// and steps cost time and memory in proportion to the bodies.
 ///
 /// ```

@@ -85,3 +85,8 @@ pub use system::{
 };
 pub use variation::{FirstVariation, Variation, symplectic_form};
 pub use variational::Variational;
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

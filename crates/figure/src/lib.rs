@@ -78,3 +78,8 @@ pub struct Rendered {
     /// Its bitmap, of the same size in pixels, as a PNG file.
     pub png: Vec<u8>,
 }
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -90,3 +90,8 @@ pub use steady::Steady;
 pub use stroke::{Fourier, Stroke, Told};
 pub use swimmer::Swimmer;
 pub use tree::Moving;
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -37,7 +37,7 @@ pub trait Batch: Scalar {
     /// The magnitude of each number.
     fn abs(self) -> Self;
 
-    /// The larger of each two; which it is where one is not a number is not said.
+    /// The lane-wise maximum; unspecified if either is NaN.
     fn max(self, other: Self) -> Self;
 
     /// Runs `f` compiled for the instructions of this scalar, as far as `f` and all it calls is inlined.

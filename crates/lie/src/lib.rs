@@ -122,3 +122,8 @@ pub use symmetric::{Ldl3, Sym3};
 pub use units::Units;
 pub use vector::Vec3;
 pub use vector_space::{Cotangent, Tangent, VectorSpace};
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -13,8 +13,8 @@ pub const JET_DIRECTIONS: usize = 6;
 
 /// A number that the formulas of this crate run over: `f64`, `f32`, dual numbers, SIMD lanes.
 ///
-/// Group code takes no data-dependent branch: where two expressions are needed, both are evaluated
-/// and [`select`](Scalar::select) picks one, so that dual numbers keep their derivative and lanes
+/// Group code takes no data-dependent branch. Where two expressions are needed, both are evaluated
+/// and [`select`](Scalar::select) picks one. So dual numbers keep their derivative, and lanes
 /// stay side by side.
 ///
 /// ```

@@ -290,8 +290,8 @@ impl Growth {
         self.0.last().map_or(0.0, |last| last.1)
     }
 
-    /// What it comes to by the time `end`: by the power of time that it grew by since half the time, at least the first, or exponentially
-    /// where that power is no motion's that is regular.
+    /// What it comes to by the time `end`. It goes on by the power of time that it grew by since half the time, at least the first; or
+    /// exponentially, where no regular motion has such a power.
     fn at(&self, end: f64) -> f64 {
         let Some(&(t, now)) = self.0.last() else {
             return 0.0;

@@ -69,3 +69,8 @@ pub use schedule::{Due, Schedule};
 pub use simulation::{CHUNK, Plan, Simulation, check_told};
 pub use table::Table;
 pub use watch::Watch;
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

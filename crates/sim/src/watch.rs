@@ -109,8 +109,8 @@ impl Watch {
         self
     }
 
-    /// How far a sample is from what the motion keeps since the start: the energy's balance, with its sign, J, the linear momentum,
-    /// kg m/s, and the angular one, kg m²/s.
+    /// How far a sample is from what the motion keeps since the start. These are the energy's balance, with its sign, J, the linear
+    /// momentum, kg m/s, and the angular one, kg m²/s.
     pub fn departures(&self, sample: &Sample) -> [f64; 3] {
         let (symmetry, start) = (&self.symmetry, &self.start);
         [

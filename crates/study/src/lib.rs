@@ -17,3 +17,8 @@ pub mod problems;
 pub mod stability;
 pub mod survey;
 pub mod work_precision;
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,8 +1,8 @@
 //! Work against precision: what each [`Contender`](crate::contender::Contender) costs for which error, on a scene of one's own.
 //!
 //! A [`Sweep`] runs one contender from long steps, or loose tolerances, to short ones. Errors are the largest over the run at
-//! [`SAMPLES`] times, never the endpoint's, against a [`Reference`] that two methods have found independently; where these differ is the
-//! floor below which no error is known. Time is that of stepping alone, the least of several runs; beside it stand counts, which
+//! [`SAMPLES`] times, never the endpoint's, against a [`Reference`] that two methods have found independently. Below the difference of
+//! these no error is known. Time is that of stepping alone, the least of several runs; beside it stand counts, which
 //! no other program on the machine disturbs. What fails [stays](Point::outcome), with its cause.
 //!
 //! ```

@@ -63,3 +63,8 @@ pub use node::{Binary, Bits, Id, Node, Unary};
 pub use pattern::Pattern;
 pub use program::Program;
 pub use traced::{Comparison, Traced, record};
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -24,7 +24,7 @@ pub(crate) fn reachable<I: Iterator<Item = Id>>(
     found
 }
 
-/// The same, each node just before it is first needed, for the roots one after the other.
+/// The same, each node immediately before it is first needed, for the roots one after the other.
 ///
 /// So numbers that belong together are computed together, and few are alive at a time.
 pub(crate) fn as_needed(graph: &Graph, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {

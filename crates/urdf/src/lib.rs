@@ -104,3 +104,8 @@ pub fn load(path: &Path, options: &Options) -> Result<Imported, UrdfError> {
         }
     }
 }
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

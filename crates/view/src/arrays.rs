@@ -87,8 +87,8 @@ const COLUMNS: &[Column] = &[
 
 /// All frames of a run as arrays of doubles, with a row for each frame. Units are those of the [table](sim::table::COLUMNS).
 ///
-/// With $T$ frames of $N$ bodies, $H$ free hinges and $D$ drives: `t` $(T)$, `position` and `velocity` of the first body $(T, 3)$,
-/// `attitude` $(T, N, 3, 3)$, `angular_velocity` and `centre` of the bodies $(T, N, 3)$, `hinge` $(T, H, 2)$ with angle and rate,
+/// With $T$ frames of $N$ bodies, $H$ free hinges and $D$ drives: `t` $(T)$, `position` and `velocity` of the first body $(T, 3)$.
+/// `attitude` $(T, N, 3, 3)$, `angular_velocity` and `centre` of the bodies $(T, N, 3)$. `hinge` $(T, H, 2)$ with angle and rate.
 /// `work` $(T, D)$, `energy` $(T)$, `momentum` and `angular_momentum` $(T, 3)$, `orthogonality` $(T)$. The names are in `bodies`,
 /// `hinges` and `drives`.
 pub struct Arrays {

@@ -42,3 +42,8 @@ pub use motion::{Motion, facts};
 pub use npz::NpzError;
 pub use page::page;
 pub use recording::{MOST_FRAMES, Recording};
+
+/// Compiles and runs the README's code.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

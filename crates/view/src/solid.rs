@@ -95,8 +95,8 @@ fn reaches(scene: &Scene) -> Vec<f64> {
     reaches
 }
 
-/// The semi-axes that a scene gives; else those of the uniform ellipsoid with the body's moments of inertia, its own where they are known,
-/// $a_x^2 = \frac{5}{2m} (J_y + J_z - J_x)$, made smaller where it would reach beyond the joints.
+/// The semi-axes that a scene gives. Else those of the uniform ellipsoid with the body's moments of inertia, its own where they are known,
+/// $a_x^2 = \frac{5}{2m} (J_y + J_z - J_x)$. It is made smaller where it would reach beyond the joints.
 fn axes(body: &SceneBody, reach: f64) -> [f64; 3] {
     if let Some(axes) = body.semi_axes() {
         return axes;

@@ -24,7 +24,7 @@ use report::Report;
 /// Map in which steps each method fails, and how, on a scene of your own.
 ///
 /// Runs each method in steps of every size, over one parameter of the scene, for a long time, on all processors. Writes the
-/// map (SVG and PNG) and all numbers (CSV), and prints the largest step in which each method is good and what ends there: the solver of
+/// map (SVG and PNG) and all numbers (CSV). Prints the largest step in which each method is good and what ends there: the solver of
 /// its step, or its dynamics.
 #[derive(clap::Args)]
 #[command(after_long_help = AFTER_LONG_HELP)]

@@ -13,8 +13,8 @@ use crate::joints::Role;
 use crate::tree::{ArticulatedBody, Identity};
 
 impl ArticulatedBody {
-    /// The same bodies under gravity: on each acts its net mass, that of the body less that of the displaced fluid, kg, times
-    /// `gravity`, m/s² in the reference frame, at its mass centre.
+    /// The same bodies under gravity. On each acts its net mass, kg, times `gravity`, m/s² in the reference frame, at its mass centre.
+    /// The net mass is that of the body less that of the displaced fluid.
     ///
     /// # Errors
     /// [`ModelError::NetMasses`] where there is not one net mass for each body; [`ModelError::NotFinite`] where the forces are not.
@@ -64,8 +64,8 @@ impl ArticulatedBody {
             .map_or(Vec3::zero(), Weight::force)
     }
 
-    /// The same bodies on elastic joints, at rest where the frames of body and parent are aligned: the potential of a joint is
-    /// $k (1 - \cos\theta)$ with the angle $\theta$ between these and the stiffness $k \ge 0$, N m; zero is a free joint.
+    /// The same bodies on elastic joints, at rest where the frames of body and parent are aligned. The potential of a joint is
+    /// $k (1 - \cos\theta)$ with the angle $\theta$ between these and the stiffness $k \ge 0$, N m. Zero is a free joint.
     ///
     /// Of a hinge it is $\frac12 k (q - q_0)^2$ of its angle, $k$ in N m/rad. The stiffnesses are in the order of [`joints`](Self::joints),
     /// before them that of the joint to the world, if there is one.

@@ -4,12 +4,12 @@
 //! joints, the velocity and the gravity lie in the plane and the bodies spin about $n$, the motion stays so: no force leads
 //! out of it. An elastic joint aligns the frames of its bodies: where $n$ has one direction in both, it only turns them about $n$. Rotations are then angles and the group is abelian, $SO(2)^{n+1} \times \mathbb{R}^2$.
 //!
-//! A plane is taken only where it is exact: $n$ is a coordinate axis of the reference frame and of every body's, and all numbers that
+//! A plane is taken only where it is exact. Then $n$ is a coordinate axis of the reference frame and of every body's, and all numbers that
 //! would lead out of the plane are zero. A small number there may grow, as in a spin about the intermediate axis, so none is left
 //! out. A motion in a plane of a tilted frame has such numbers by rounding: it is stepped in space.
 //!
-//! [`Plane::find`] finds the plane of a model and a state; [`PlanarBody`] is the model in it, with the discrete and the
-//! continuous Lagrangian of [`ArticulatedBody`](crate::ArticulatedBody) restricted to the plane, the same functions; and
+//! [`Plane::find`] finds the plane of a model and a state. [`PlanarBody`] is the model in it, with the discrete and the
+//! continuous Lagrangian of [`ArticulatedBody`](crate::ArticulatedBody) restricted to the plane, the same functions.
 //! [`Viewed`](crate::Viewed) steps states in space by an integrator in the plane.
 //!
 //! ```

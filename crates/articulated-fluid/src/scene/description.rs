@@ -103,8 +103,8 @@ impl SceneBody {
         }
     }
 
-    /// A body of this own mass, kg, and inertia, kg m², if they are known, and of these totals, as [`total_mass`](Self::total_mass),
-    /// [`total_inertia`](Self::total_inertia) and [`net_mass`](Self::net_mass): at rest, and aligned with the reference frame.
+    /// A body at rest, aligned with the reference frame. It has this own mass, kg, and inertia, kg m², if they are known, and these totals:
+    /// [`total_mass`](Self::total_mass), [`total_inertia`](Self::total_inertia) and [`net_mass`](Self::net_mass).
     pub fn given(
         name: &str,
         shape: Option<Ellipsoid>,

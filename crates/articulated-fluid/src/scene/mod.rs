@@ -77,7 +77,7 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError::Invalid`] for the first thing wrong: TOML syntax, an unknown or missing key,
-    /// a value of the wrong type or size, not finite or out of range, joints that make no tree; [`SceneError::TooLarge`] of a text
+    /// a value of the wrong type or size, not finite or out of range, no tree. [`SceneError::TooLarge`] of a text
     /// longer than [`MOST_BYTES`].
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
         Self::parse_by(text, file, &read_bounded)

@@ -53,8 +53,8 @@ pub struct Overlap {
     pub bodies: [usize; 2],
     /// Their names.
     pub names: [String; 2],
-    /// How far they must be moved apart along the line of their centres until they touch, m; for coinciding centres, where
-    /// there is no such line, the sum of the smallest semi-axes.
+    /// How far they must be moved apart along the line of their centres until they touch, m. Where the centres coincide
+    /// there is no such line, and this is the sum of the smallest semi-axes.
     pub depth: f64,
 }
 
@@ -265,7 +265,7 @@ fn turn(x: Vec3, y: Vec3) -> Option<(f64, f64)> {
 }
 
 /// The contact function of J. W. Perram and M. S. Wertheim (1985) for ellipsoids at distance 1 in the direction $u$,
-/// $\max_\lambda \lambda (1 - \lambda) u^T ((1 - \lambda) A + \lambda B)^{-1} u$: the square of the distance over the one at
+/// $\max_\lambda \lambda (1 - \lambda) u^T ((1 - \lambda) A + \lambda B)^{-1} u$. It is the square of the distance over the one at
 /// which they touch.
 ///
 /// With $A = 1$, $B = \mathrm{diag}(\sigma_i^2)$ and $s = 1 / \lambda - 1$ it is

@@ -1,7 +1,7 @@
 //! SIMD registers as scalars, with the instruction set chosen at run time.
 //!
 //! A [`Job`] is written once over any [`Batch`] of doubles; [`run`] calls it with the widest one that this processor has.
-//! What it calls must be inlined whole (`#[inline(always)]`) to be compiled for that instruction set: a call that is left
+//! What it calls must be inlined whole (`#[inline(always)]`) to be compiled for that instruction set. A call that is left
 //! over is right as well, but passes registers through memory and costs more than it saves.
 //!
 //! ```
@@ -164,7 +164,7 @@ pub fn run_per_lane<J: PerLaneJob>(set: InstructionSet, job: J) -> J::Output {
     }
 }
 
-/// Does a job that has one thing to compute at a time by the fastest instructions for that: its scalar may hold several items, which
+/// Does a job that has one thing to compute at a time, by the fastest instructions for that. Its scalar may hold several items, which
 /// are all to be the same.
 pub fn run_single<J: Job>(job: J) -> J::Output {
     #[cfg(target_arch = "x86_64")]

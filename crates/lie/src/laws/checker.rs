@@ -24,8 +24,8 @@ pub(super) fn difference_tolerance<S: Scalar>(scale: f64) -> f64 {
     DIFFERENCE_ROUNDINGS * S::EPSILON.powf(2.0 / 3.0) * scale
 }
 
-/// The example at hand, for the message of a failure; its type forgotten, so that comparing is compiled once for each type that
-/// is compared, and not for every law again.
+/// The example at hand, for the message of a failure. Its type is forgotten, so that comparing is compiled once for each type that
+/// is compared.
 pub type Case<'a> = &'a dyn Fn() -> String;
 
 /// What a check did: it counts the comparisons and keeps the worst.

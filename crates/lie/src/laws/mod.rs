@@ -33,14 +33,14 @@ pub use verdict::LawError;
 /// Tests the laws of a group on examples.
 ///
 /// It finds mistakes, it proves nothing: a group may be right on the examples and wrong elsewhere. Elements and
-/// velocities are combined in all pairs (and triples, where a law needs them), so a handful is enough: take the
+/// velocities are combined in all pairs (and triples, where a law needs them), so a handful is enough. Take the
 /// identity's neighbourhood (0, 1e-8), generic ones, and rotations close to $\pi$, none past it by much. Zero and the
 /// basis of the algebra are added to the velocities; the momenta are the dual basis and the velocities, reversed.
 ///
 /// Tested:
 /// - the vector spaces: every method of algebra and dual against `get` and `set`;
 /// - the group axioms, and that an element whose numbers are off by $\delta$ is back on the group to $O(\delta^2)$
-///   once normalised: a group with redundant numbers, a matrix say, must not leave `normalize` empty;
+///   once normalised. A group with redundant numbers, a matrix say, must not leave `normalize` empty;
 /// - $\exp$, $\log$ and the Cayley map: one-parameter subgroups, the inverses, $\log$ the shortest,
 ///   $\mathrm{cay}\,\xi = \exp\xi + O(\xi^3)$, the square root and that it lies halfway;
 /// - $\mathrm{Ad}$ a homomorphism and the derivative of conjugation, $\mathrm{ad}$ its derivative, antisymmetry, the
@@ -57,8 +57,8 @@ pub use verdict::LawError;
 /// coordinates in which the structure constants are of order one.
 ///
 /// # Errors
-/// [`LawError::NoExamples`] without an element other than the identity and a velocity other than zero, hence always
-/// for a group of dimension zero (an empty [`Power`](crate::Power)), of which there is nothing to test;
+/// [`LawError::NoExamples`] without an element other than the identity and a velocity other than zero. A group of
+/// dimension zero (an empty [`Power`](crate::Power)) never has them: there is nothing to test.
 /// [`LawError::Violated`] or [`LawError::Undefined`] with the first law that fails.
 pub fn check<G>(elements: &[G], velocities: &[G::Algebra]) -> Result<Report, LawError>
 where

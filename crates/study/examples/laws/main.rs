@@ -1,5 +1,5 @@
-//! Laws that hold for every scene and every method: what is called a metre, and where, how fast, how turned and in which order a scene is
-//! described, changes nothing of its motion.
+//! Laws that hold for every scene and every method. What is called a metre changes nothing of a motion. Nor does where, how fast, how
+//! turned and in which order the scene is described.
 //!
 //! `cargo run --release -p lgvi-study --example laws -- [CASES] [SEED]`, by default 100 and 1. For each method and law: the cases that hold of
 //! those that were tried, and the largest difference of attitudes, rad. A case whose step is refused in both descriptions holds.

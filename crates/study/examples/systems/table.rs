@@ -14,7 +14,7 @@ use super::{DRAWN, Plan, Surveyed, rows};
 /// Errors below are rounding, the methods' or the reference's.
 const PLATEAU: f64 = 4e-14;
 
-/// Where a method's order is measured, in times of the problem: after a whole period a rule of order 1 that is conjugate to one
+/// Where a method's order is measured, in times of the problem. After a whole period a rule of order 1 that is conjugate to one
 /// of order 2 would show that one's order.
 const UNTIL: f64 = 0.7;
 

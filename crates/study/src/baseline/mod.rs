@@ -14,7 +14,7 @@
 //!
 //! The step sequence does not depend on the sampling times: the method takes the
 //! steps it wants. A sample that falls inside an accepted step `[a, b]` is *not*
-//! interpolated; it comes from one more step of the same pair from `a` to the
+//! interpolated. It comes from one more step of the same pair from `a` to the
 //! sampling time, which is as exact as the step itself. The reason is a
 //! measurement. On the harmonic oscillator (largest error made within one step,
 //! over `t ∈ [0, 100]`, relative = absolute tolerance):

@@ -29,7 +29,7 @@ pub struct Samples {
 /// it is not defined: the step is then tried again, shorter.
 ///
 /// Samples are taken at `0, every, 2 every, …` (each the rounded product, no
-/// accumulated drift) and, exactly once and last, at `until`; a multiple of
+/// accumulated drift) and, exactly once and last, at `until`. A multiple of
 /// `every` within rounding of `until` is the sample at `until`. Times are in
 /// the unit of the problem, usually seconds.
 ///

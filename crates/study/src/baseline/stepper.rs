@@ -11,7 +11,7 @@ use super::{BaselineError, Pair, Tolerance};
 /// Steps, accepted and rejected, after which a run gives up.
 pub const MAX_STEPS: usize = 10_000_000;
 
-/// Of the step size that would just pass.
+/// Of the largest step size that would pass.
 const SAFETY: f64 = 0.9;
 /// The controller remembers no smaller error.
 const LEAST_ERROR: f64 = 1e-4;

@@ -77,8 +77,8 @@ impl FreeRigidBody {
 /// \varphi = \frac{L t}{I_3} + \frac L\omega \left(\frac1{I_1} - \frac1{I_3}\right) \left[\Pi(n; \mathrm{am}\ v, m)\right]_{v = u_0}^{u},
 /// \qquad n = -\frac{I_3 |I_2 - I_1|}{I_1 |I_3 - I_2|}.
 /// $$
-/// Differences of squares are taken as sums of terms of one sign, and whole periods are counted, so that the error grows
-/// with the number of periods by a few units of rounding each; near the separatrix digits are lost as $1/(1 - m)$.
+/// Differences of squares are taken as sums of terms of one sign, and whole periods are counted. So the error grows
+/// with the number of periods by a few units of rounding each. Near the separatrix digits are lost as $1/(1 - m)$.
 ///
 /// Source: L. D. Landau, E. M. Lifshitz, *Mechanics*, 3rd ed. (1976), § 37.
 #[derive(Clone, Debug, PartialEq)]

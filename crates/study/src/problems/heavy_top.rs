@@ -31,7 +31,7 @@ impl Lagrangian for HeavyTop {
 
 impl HeavyTop {
     /// The top with moments of inertia `transverse`, $A$, and `axial`, $C$, about the fixed point, kg m², and `weight`
-    /// $W = m g l$, N m: weight times distance of the mass centre, which lies on the axis of symmetry $e_3$ of the body.
+    /// $W = m g l$ (N m). That is the weight times the distance of the mass centre, which lies on the axis of symmetry $e_3$ of the body.
     ///
     /// # Errors
     /// [`ProblemError::NotPositive`].

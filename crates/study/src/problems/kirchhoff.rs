@@ -94,10 +94,10 @@ impl Kirchhoff {
     /// The rate, 1/s, at which small perturbations of the pure translation along `axis` with `speed`, m/s, grow.
     ///
     /// With $V$ along axis $i$, Kirchhoff's equations linearised about it fall into two pairs, for $j \ne i$ and the
-    /// third axis $k$, in the impulse $\delta p_j$ and the moment of impulse $\delta\pi_k$: $\delta\dot p_j = \mp M_i V \delta\pi_k / J_k$,
+    /// third axis $k$. In the impulse $\delta p_j$ and the moment of impulse $\delta\pi_k$ they are $\delta\dot p_j = \mp M_i V \delta\pi_k / J_k$,
     /// $\delta\dot\pi_k = \pm V (M_i / M_j - 1)\ \delta p_j$, so that
     /// $$ \delta\ddot p_j = \lambda_j^2\ \delta p_j, \qquad \lambda_j^2 = V^2 \frac{M_i (M_j - M_i)}{M_j J_k}. $$
-    /// The rate is the larger $\lambda_j$, and zero where both squares are not positive: only the translation along the
+    /// The rate is the larger $\lambda_j$, and zero where both squares are not positive. Only the translation along the
     /// axis of the largest total mass, broadside on, is stable (Lamb, § 124).
     ///
     /// # Errors

@@ -34,8 +34,8 @@ impl Lagrangian for Pendulum {
 }
 
 impl Pendulum {
-    /// The pendulum with principal moments of inertia `moments` about the pivot, kg m², `weight` $m g$, N, and mass
-    /// centre $\rho$ at `centre`, m, from the pivot in the body's principal axes.
+    /// The pendulum with principal moments of inertia `moments` about the pivot, kg m², and `weight` $m g$ (N). Its mass
+    /// centre $\rho$ is at `centre`, m, from the pivot in the body's principal axes.
     ///
     /// # Errors
     /// [`ProblemError::NotPositive`], for a mass centre at the pivot too; [`ProblemError::NotFinite`].
@@ -52,7 +52,7 @@ impl Pendulum {
         })
     }
 
-    /// The swing in a vertical plane about the principal axis `axis`, which lies along $e_1$ of space: from the angle
+    /// The swing in a vertical plane about the principal axis `axis`, which lies along $e_1$ of space. It starts at the angle
     /// `angle`, rad, to the hanging position, with the rate `rate`, rad/s.
     ///
     /// # Errors
@@ -70,8 +70,8 @@ impl Pendulum {
         Ok(self.posed("planar pendulum", start, exact.period(), exact))
     }
 
-    /// The motion from `attitude` with the angular velocity `omega`, rad/s, in the body's frame, at time zero; there is
-    /// no closed form, and the solution is integrated on its own to `tolerance`.
+    /// The motion from `attitude` with the angular velocity `omega`, rad/s, in the body's frame, at time zero. There is
+    /// no closed form: the solution is integrated on its own to `tolerance`.
     ///
     /// # Errors
     /// [`ProblemError::NotFinite`].

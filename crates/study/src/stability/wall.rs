@@ -38,7 +38,7 @@ pub struct Limit {
 
 /// What a method runs into when its step grows.
 ///
-/// The solver's wall and the dynamics' are different ones: beyond the first a better solver goes on, beyond the second the method's own
+/// The solver's wall and the dynamics' are different ones. Beyond the first a better solver goes on. Beyond the second the method's own
 /// discrete dynamics is no longer near the motion, however well it is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -48,8 +48,8 @@ pub enum Wall {
     /// The solver: it refused a step whose equation has a solution near the motion, found from shorter steps by continuation. What would
     /// come after that step is not known.
     Solver,
-    /// As far as continuation can tell, the equation of the step: from the state where it was refused, the branch of solutions that starts
-    /// at the state itself was followed to this step, s, and no way on was found.
+    /// As far as continuation can tell, the equation of the step. From the state where it was refused, the branch of solutions that starts
+    /// at the state itself was followed to this step, s. No way on was found.
     Equation {
         /// The longest step that was solved, s; zero where not even the shortest tried was.
         ends: f64,

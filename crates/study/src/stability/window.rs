@@ -23,7 +23,7 @@ const CHECK_STEPS: f64 = 8.0;
 const AGREES: f64 = 0.1;
 
 /// The largest kinetic energy, J, of the motion until it has turned a body by half a radian: after a step of `h`, after twice that and so
-/// on; of as much of it as there is a reference for.
+/// on. It is that of as much of the motion as there is a reference for.
 pub(super) fn kinetic_ahead(problem: &Problem, h: f64) -> f64 {
     let Problem {
         model,
@@ -58,8 +58,8 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// One step of `h` from `start`, or twice as many and so on, at most `most`, until the motion has turned a body by half a radian; none
-    /// where there is no reference.
+    /// One step of `h` from `start`, or twice as many and so on, at most `most`, until the motion has turned a body by half a radian. There
+    /// is none where there is no reference.
     pub(super) fn open(
         model: &ArticulatedBody,
         start: &State<Configuration>,
