@@ -17,7 +17,7 @@ PAGES = ["*.md", "docs/*.md", "python/*.md", "paper/*.md", "crates/*/*.md", "cra
 MANIFESTS = ["Cargo.toml", "crates/*/Cargo.toml", "python/Cargo.toml", "python/pyproject.toml"]
 SOURCES = ["src/**/*.rs", "crates/*/src/**/*.rs", "python/src/**/*.rs", "examples/**/*.rs", "crates/*/examples/**/*.rs"]
 # Their sentences are counted, and do not fail.
-NOT_YET = ("crates/dvi/src", "crates/gait/src")
+NOT_YET = ("crates/dvi/src/gauss",)
 MOST_WORDS = 30
 SHORT = re.compile(r"(?:\b[A-Z]|\b(?:e\.g|i\.e|cf|Sec|sec|ch|ed|vs|No|Phys|Lett|Math|Comp|Appl|Numer|Comput|Future|Gener|Syst|Sci|Int|J|Proc|resp))\.$")
 END = re.compile(r"(?<=[.!?])[)*\"”]*\s+(?=[^a-z\s])")

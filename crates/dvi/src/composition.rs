@@ -40,8 +40,8 @@ const EIGHTH: [f64; 9] = [
 
 /// A symmetric composition of order 2, 4, 6 or 8 of the steps of a discrete Lagrangian and its [adjoint](Adjoint).
 ///
-/// Each of its 1, 5, 9 or 17 parts, $\gamma_j h$ long, is half a step of the one and half a step of the other; of a symmetric discrete
-/// Lagrangian, one step of that. Some $\gamma_j$ are negative: time goes back and forth.
+/// It has 1, 5, 9 or 17 parts, $\gamma_j h$ long. Each is half a step of the one and half a step of the other, or one whole step of a
+/// symmetric discrete Lagrangian. Some $\gamma_j$ are negative: these parts go backward in time.
 ///
 /// ```
 /// use dvi::{Composition, Context, Integrator, Lagrangian, Quadrature, System};

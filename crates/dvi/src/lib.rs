@@ -47,19 +47,19 @@
 //!
 //! # How derivatives come about
 //! A value that is all a user has written is recorded at the first step, by [`trace`], and differentiated in reverse: a gradient costs a few
-//! values. It is recorded again where the configuration has another shape, and not where a [parameter](System::parameters) changes.
+//! values. It is recorded again where the configuration has another shape; a [parameter](System::parameters) that changes needs no new recording.
 //! What a value reads from elsewhere, and may change, must be such a parameter. A value that looks at a number, to branch on it say, cannot be
 //! recorded: its derivatives come from dual numbers, which cost much more. [`StepReport::means`] tells which of the two it is, and why;
 //! [`TracedSystem::new`] asks for the recording and gives the reason as an error.
 //!
 //! The balance of a long step has many roots, and the motion's is the one that grows from no displacement at $h = 0$. There the balance's
 //! matrix is the inertia; where the motion's root ends it meets another and the matrix is singular, so that beyond, a pivot has another sign. A root with
-//! such a pivot is not taken, nor one that Newton's method has found by a residual that does not fall: the solution is then followed from shorter
-//! steps, and where it ends before the step's size, the step is refused. This is evidence and no proof: where a force changes so much within a step
-//! that several roots have the inertia's signs, the one that the steps before lead to is taken.
+//! such a pivot is not taken, nor one that Newton's method has found by a residual that does not fall. The solution is then followed from shorter
+//! steps. Where it ends before the step's size, the step is refused. This is evidence and no proof. Where a force changes much within a step,
+//! several roots may have the inertia's signs. The one that the steps before lead to is then taken.
 //!
-//! The new momentum is the coadjoint transport of the old one, not a difference quotient: so momentum maps hold to rounding
-//! even at a loose tolerance, and say nothing about whether the step was solved. The [`StepReport`]'s residual does.
+//! The new momentum is the coadjoint transport of the old one, not a difference quotient. So momentum maps hold to rounding
+//! even at a loose tolerance. They do not tell whether the step was solved: the [`StepReport`]'s residual does.
 
 mod composition;
 mod gauss;

@@ -84,7 +84,7 @@ pub enum PilotError {
         /// As given, s.
         duration: f64,
     },
-    /// Two runs of ever shorter steps do not agree as well as was asked for.
+    /// Two runs of ever shorter steps differ by more than was asked for.
     #[error(
         "an accuracy of {accuracy:e} over {horizon} s is out of reach: the finest runs differ by {best:.1e}; \
          ask for {}a shorter time", less(20.0 * best)
@@ -118,8 +118,8 @@ fn less(accuracy: f64) -> String {
 impl Pilot {
     /// Stages, step and tolerance with which the motion from `start` is accurate for `duration` seconds.
     ///
-    /// Runs of eight stages with halved steps first agree with each other; then runs of fewer stages or longer steps are compared
-    /// with the finest, and the one with the fewest evaluations is taken; their stages are solved no further than that comparison can
+    /// The steps of runs of eight stages are halved until two agree. Runs of fewer stages or longer steps are then compared with the
+    /// finest, and the one with the fewest evaluations is taken. Their stages are solved no further than that comparison can
     /// tell. All of it costs about ten such runs.
     ///
     /// # Errors

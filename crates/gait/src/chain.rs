@@ -77,7 +77,7 @@ impl Chain {
     /// [`GaitError::Shape`].
     pub fn torques(&self, state: [&[f64]; 3]) -> Result<Vec<f64>, GaitError> {
         state.iter().try_for_each(|part| self.check(part))?;
-        self.formulas.torques.with(&state.concat(), <[f64]>::to_vec)
+        self.formulas.torques.at(state.concat())
     }
 
     pub(crate) fn tree(&self) -> &Tree {
@@ -91,6 +91,15 @@ impl Chain {
     /// Shape, rates and accelerations of a stroke, in a row.
     pub(crate) fn state(&self, stroke: &dyn Stroke, t: f64) -> Vec<f64> {
         [0, 1, 2].map(|k| stroke.derivative(t, k)).concat()
+    }
+
+    /// The same at each time.
+    pub(crate) fn states(
+        &self,
+        stroke: &dyn Stroke,
+        times: impl Iterator<Item = f64>,
+    ) -> Vec<Vec<f64>> {
+        times.map(|t| self.state(stroke, t)).collect()
     }
 
     fn check(&self, q: &[f64]) -> Result<(), GaitError> {

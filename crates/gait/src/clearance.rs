@@ -17,6 +17,9 @@ pub(crate) struct Clearance {
     pairs: Vec<Pair>,
 }
 
+/// How much two bodies overlap, and the derivatives by the shape.
+type Overlap = (f64, Vec<f64>);
+
 /// The contact function of two bodies by shape and $\lambda$: its slope in $\lambda$, and value and gradient.
 struct Pair {
     slope: Evaluator,
@@ -41,21 +44,17 @@ impl Clearance {
         let rest = vec![0.0; tree.dim()];
         let mut apart = Vec::with_capacity(pairs.len());
         for pair in pairs.drain(..) {
-            if pair.overlap(&rest)?.0 < 0.0 {
+            if pair.overlaps(core::slice::from_ref(&rest))?[0].0 < 0.0 {
                 apart.push(pair);
             }
         }
         Ok(Self { pairs: apart })
     }
 
-    /// How many pairs there are.
-    pub(crate) fn len(&self) -> usize {
-        self.pairs.len()
-    }
-
-    /// $1 - F$ of each pair, which is positive where the two overlap, and its derivatives by the shape.
-    pub(crate) fn overlaps(&self, q: &[f64]) -> Result<Vec<(f64, Vec<f64>)>, GaitError> {
-        self.pairs.iter().map(|pair| pair.overlap(q)).collect()
+    /// $1 - F$ of each pair at each shape, which is positive where the two overlap, and its derivatives by the shape.
+    pub(crate) fn overlaps(&self, shapes: &[Vec<f64>]) -> Result<Vec<Vec<Overlap>>, GaitError> {
+        let each = self.pairs.iter();
+        each.map(|pair| pair.overlaps(shapes)).collect()
     }
 }
 
@@ -74,19 +73,26 @@ impl Pair {
         })
     }
 
-    fn overlap(&self, q: &[f64]) -> Result<(f64, Vec<f64>), GaitError> {
-        let (mut low, mut high) = (0.0, 1.0);
-        let mut x = q.to_vec();
-        x.push(0.5);
+    fn overlaps(&self, shapes: &[Vec<f64>]) -> Result<Vec<Overlap>, GaitError> {
+        let mut lambdas = vec![0.5; shapes.len()];
+        let points = |lambdas: &[f64]| {
+            let each = shapes.iter().zip(lambdas);
+            let point = |(q, lambda): (&Vec<f64>, &f64)| [&q[..], &[*lambda]].concat();
+            each.map(point).collect::<Vec<_>>()
+        };
         // The function is concave in λ; at its maximum, λ may be held.
+        let mut half = 0.25;
         for _ in 0..HALVINGS {
-            let rises = self.slope.with(&x, |out| out[0] > 0.0)?;
-            *(if rises { &mut low } else { &mut high }) = x[q.len()];
-            x[q.len()] = 0.5 * (low + high);
+            self.slope.at_each(&points(&lambdas), &mut |i, out| {
+                lambdas[i] += if out[0] > 0.0 { half } else { -half };
+            })?;
+            half *= 0.5;
         }
-        self.gradient.with(&x, |out| {
-            (1.0 - out[0], out[1..].iter().map(|slope| -slope).collect())
-        })
+        let mut found = Vec::with_capacity(shapes.len());
+        self.gradient.at_each(&points(&lambdas), &mut |_, out| {
+            found.push((1.0 - out[0], out[1..].iter().map(|slope| -slope).collect()));
+        })?;
+        Ok(found)
     }
 }
 

@@ -32,9 +32,8 @@ impl Effort {
         let h = stroke.period() / samples as f64;
         let [density, _] = self.density(chain);
         let mut sum = 0.0;
-        for i in 0..samples {
-            sum += h * density.with(&chain.state(stroke, i as f64 * h), |out| out[0])?;
-        }
+        let points = chain.states(stroke, (0..samples).map(|i| i as f64 * h));
+        density.at_each(&points, &mut |_, out| sum += h * out[0])?;
         Ok(sum)
     }
 
@@ -52,22 +51,20 @@ impl Effort {
         let (dim, of_one) = (chain.dim(), stroke.of_one());
         let [_, density] = self.density(chain);
         let (mut sum, mut gradient) = (0.0, vec![0.0; dim * of_one]);
-        for i in 0..samples {
-            let t = i as f64 * h;
-            let bases = [0, 1, 2].map(|k| stroke.basis(t, k));
-            density.with(&chain.state(stroke, t), |out| {
-                sum += h * out[0];
-                // Where nothing moves, the length has a corner, and 0 is one of its slopes.
-                let slopes = out[1..]
-                    .iter()
-                    .map(|slope| if out[0] == 0.0 { 0.0 } else { *slope });
-                for (index, slope) in slopes.enumerate() {
-                    let own = &mut gradient[(index % dim) * of_one..][..of_one];
-                    let basis = own.iter_mut().zip(&bases[index / dim]);
-                    basis.for_each(|(sum, phi)| *sum += h * slope * phi);
-                }
-            })?;
-        }
+        let points = chain.states(stroke, (0..samples).map(|i| i as f64 * h));
+        density.at_each(&points, &mut |i, out| {
+            let bases = [0, 1, 2].map(|k| stroke.basis(i as f64 * h, k));
+            sum += h * out[0];
+            // Where nothing moves, the length has a corner, and 0 is one of its slopes.
+            let slopes = out[1..]
+                .iter()
+                .map(|slope| if out[0] == 0.0 { 0.0 } else { *slope });
+            for (index, slope) in slopes.enumerate() {
+                let own = &mut gradient[(index % dim) * of_one..][..of_one];
+                let basis = own.iter_mut().zip(&bases[index / dim]);
+                basis.for_each(|(sum, phi)| *sum += h * slope * phi);
+            }
+        })?;
         Ok((sum, gradient))
     }
 }

@@ -1,41 +1,88 @@
 //! The formulas of a chain, recorded once: connection, metric and torques with exact derivatives, as programs over doubles.
 
-use core::cell::RefCell;
-
-use trace::{Graph, Id, Program, Traced};
+use lie::Batch;
+use lie::lanes::{self, InstructionSet, Job};
+use trace::{Graph, Id, Program, Traced, WrongLength};
 
 use crate::error::GaitError;
 use crate::tree::Tree;
 
-/// A program with its memory and its results.
-pub(crate) struct Evaluator {
-    program: Program,
-    memory: RefCell<(Vec<f64>, Vec<f64>)>,
-}
+/// A program, at many points side by side in SIMD lanes.
+pub(crate) struct Evaluator(Program);
 
 impl Evaluator {
     pub(crate) fn new(graph: &Graph, outputs: &[Id]) -> Self {
-        let program = Program::new(graph, outputs);
-        let memory = (program.memory(), vec![0.0; outputs.len()]);
-        Self {
-            program,
-            memory: RefCell::new(memory),
-        }
+        Self(Program::new(graph, outputs))
     }
 
-    /// Computes, and hands the results over.
-    pub(crate) fn with<T>(
+    /// Computes at one point.
+    pub(crate) fn at(&self, point: Vec<f64>) -> Result<Vec<f64>, GaitError> {
+        let mut found = Vec::new();
+        self.at_each(&[point], &mut |_, out| found = out.to_vec())?;
+        Ok(found)
+    }
+
+    /// Computes at each point, and hands the results over, one after the other.
+    pub(crate) fn at_each(
         &self,
-        inputs: &[f64],
-        look: impl FnOnce(&[f64]) -> T,
-    ) -> Result<T, GaitError> {
-        let (memory, out) = &mut *self.memory.borrow_mut();
-        let wrong = |_| GaitError::Shape {
-            expected: self.program.inputs(),
-            found: inputs.len(),
+        points: &[Vec<f64>],
+        look: &mut dyn FnMut(usize, &[f64]),
+    ) -> Result<(), GaitError> {
+        let Self(program) = self;
+        let expected = program.inputs();
+        if let Some(point) = points.iter().find(|point| point.len() != expected) {
+            let found = point.len();
+            return Err(GaitError::Shape { expected, found });
+        }
+        let at_each = AtEach {
+            program,
+            points,
+            look,
         };
-        self.program.run(memory, inputs, out).map_err(wrong)?;
-        Ok(look(out))
+        let done = lanes::run(InstructionSet::widest(points.len()), at_each);
+        done.map_err(|_| GaitError::Shape {
+            expected,
+            found: expected,
+        })
+    }
+}
+
+struct AtEach<'a> {
+    program: &'a Program,
+    points: &'a [Vec<f64>],
+    look: &'a mut dyn FnMut(usize, &[f64]),
+}
+
+impl Job for AtEach<'_> {
+    type Output = Result<(), WrongLength>;
+
+    fn run<S: Batch<Item = f64>>(self) -> Self::Output {
+        let Self {
+            program,
+            points,
+            look,
+        } = self;
+        let mut memory = program.memory::<S>();
+        let mut inputs = vec![S::zero(); program.inputs()];
+        let mut outputs = vec![S::zero(); program.outputs()];
+        let mut one = vec![0.0; program.outputs()];
+        for (n, points) in points.chunks(S::ITEMS).enumerate() {
+            let numbers = S::items_mut(&mut inputs);
+            // The first again where there are fewer than lanes.
+            for lane in 0..S::ITEMS {
+                let point = points.get(lane).unwrap_or(&points[0]);
+                let own = numbers[lane..].iter_mut().step_by(S::ITEMS);
+                own.zip(point).for_each(|(to, x)| *to = *x);
+            }
+            program.run(&mut memory, &inputs, &mut outputs)?;
+            let numbers = S::items(&outputs);
+            for lane in 0..points.len() {
+                let own = numbers[lane..].iter().step_by(S::ITEMS);
+                one.iter_mut().zip(own).for_each(|(to, x)| *to = *x);
+                look(n * S::ITEMS + lane, &one);
+            }
+        }
+        Ok(())
     }
 }
 

@@ -28,7 +28,7 @@ pub(crate) struct Region {
 /// Minimum-perturbation coordinates: a frame of the swimmer that moves with its shape, $g' = g\, b(q)$ with $b = \exp \sum_k \beta_k \varphi_k(q)$.
 ///
 /// Its connection is $A'_j = \mathrm{Ad}_{b^{-1}} A_j - b^{-1} \partial_j b$. The coefficients make $\int |A'|^2$ over the region least, in which a
-/// turn counts by the radius of gyration: then little is left that does not commute, which is what the area rule leaves out.
+/// turn counts by the radius of gyration. Little is then left that does not commute, which is what the area rule leaves out.
 /// After R. L. Hatton and H. Choset, *Geometric motion planning: the local connection, Stokes' theorem, and the importance of coordinate choice*
 /// (2011), whose coordinates make rotation and translation small one after the other.
 pub(crate) struct Frame {

@@ -18,19 +18,24 @@ struct Node {
 }
 
 impl Node {
-    fn new(chain: &Chain, stroke: &Fourier, t: f64) -> Result<Self, GaitError> {
-        let state = chain.state(stroke, t);
-        chain.formulas().velocity_slopes.with(&state, |out| {
+    /// All those of a stroke.
+    fn all(chain: &Chain, stroke: &Fourier, intervals: usize) -> Result<Vec<Self>, GaitError> {
+        let times: Vec<f64> = nodes(stroke.period(), intervals).collect();
+        let points = chain.states(stroke, times.iter().copied());
+        let mut all = Vec::with_capacity(times.len());
+        let formulas = chain.formulas();
+        formulas.velocity_slopes.at_each(&points, &mut |n, out| {
             let (columns, _) = out.as_chunks::<6>();
             let slopes = columns[1..].chunks_exact(2);
-            Self {
+            all.push(Self {
                 xi: Tangent(columns[0]),
                 slopes: slopes
                     .map(|pair| [Tangent(pair[0]), Tangent(pair[1])])
                     .collect(),
-                bases: [0, 1].map(|k| stroke.basis(t, k)),
-            }
-        })
+                bases: [0, 1].map(|k| stroke.basis(times[n], k)),
+            });
+        })?;
+        Ok(all)
     }
 
     /// Adds what the coefficients change by this node, of whose velocity each coordinate moves the end by a column.
@@ -66,10 +71,9 @@ pub fn net_with_gradient(
     let mut gradient = vec![Tangent::zero(); chain.dim() * of_one];
     // What comes after the interval.
     let mut rest = SE3::identity();
-    for n in (0..intervals).rev() {
-        let [a, b, c] = nodes().map(|c| Node::new(chain, stroke, (n as f64 + c) * h));
-        let nodes = [a?, b?, c?];
-        let xi = [nodes[0].xi, nodes[1].xi, nodes[2].xi];
+    let all = Node::all(chain, stroke, intervals)?;
+    for nodes in all.as_chunks::<3>().0.iter().rev() {
+        let xi = nodes.each_ref().map(|node| node.xi);
         let omega = magnus(h, &xi);
         let back = rest.inverse();
         for (node, columns) in nodes.iter().zip(magnus_columns(h, &xi)) {

@@ -125,13 +125,12 @@ fn height(chain: &Chain, frame: &Frame, q: [f64; 2]) -> Result<Tangent<6>, GaitE
 
 /// $A_j$, $\partial_1 A_j$ and $\partial_2 A_j$.
 fn columns(chain: &Chain, q: [f64; 2], j: usize) -> Result<[Tangent<6>; 3], GaitError> {
-    let mut state = [q[0], q[1], 0.0, 0.0, 0.0, 0.0];
+    let mut state = vec![q[0], q[1], 0.0, 0.0, 0.0, 0.0];
     state[2 + j] = 1.0;
-    chain.formulas().velocity_slopes.with(&state, |out| {
-        // Of ξ, then of each coordinate by the shape and by the rate.
-        let (columns, _) = out.as_chunks::<6>();
-        [0, 1, 3].map(|i| -Tangent(columns[i]))
-    })
+    let out = chain.formulas().velocity_slopes.at(state)?;
+    // Of ξ, then of each coordinate by the shape and by the rate.
+    let (columns, _) = out.as_chunks::<6>();
+    Ok([0, 1, 3].map(|i| -Tangent(columns[i])))
 }
 
 /// $-\iint F$ over the inside of the stroke, by Green's theorem.

@@ -49,8 +49,8 @@
 //! | steady strokes with loads | [`Swimmer`], [`Steady`] |
 //! | all of that for a scene | [`Report`] |
 //!
-//! The model leaves out how the bodies disturb the fluid for each other: 9 to 14 % of the net motion of strokes of three links that were
-//! computed with it, and 4 to 23 % of others.
+//! The model leaves out how the bodies disturb the fluid for each other. For strokes of three links that were computed with it, that is
+//! 9 to 14 % of the net motion, and 4 to 23 % for others.
 
 mod chain;
 mod clearance;

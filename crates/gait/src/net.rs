@@ -6,10 +6,11 @@ use crate::chain::Chain;
 use crate::error::GaitError;
 use crate::stroke::Stroke;
 
-/// Gauss's nodes of an interval, for three stages.
-pub(crate) fn nodes() -> [f64; 3] {
-    let offset = 0.15_f64.sqrt();
-    [0.5 - offset, 0.5, 0.5 + offset]
+/// The times of Gauss's nodes, three in each of so many equal parts of a period.
+pub(crate) fn nodes(period: f64, intervals: usize) -> impl Iterator<Item = f64> {
+    let (h, offset) = (period / intervals as f64, 0.15_f64.sqrt());
+    let of = move |n: usize| [0.5 - offset, 0.5, 0.5 + offset].map(|c| (n as f64 + c) * h);
+    (0..intervals).flat_map(of)
 }
 
 /// The exponent of an interval, $g_{n+1} = g_n \exp \Omega$, of order 6 by the velocities at Gauss's nodes.
@@ -51,18 +52,15 @@ pub(crate) fn magnus_columns(h: f64, xi: &[Tangent<6>; 3]) -> [[Tangent<6>; 6]; 
 /// [`GaitError::Shape`].
 pub fn path(chain: &Chain, stroke: &dyn Stroke, intervals: usize) -> Result<Vec<SE3>, GaitError> {
     let h = stroke.period() / intervals as f64;
-    let velocity = |t: f64| {
-        let read = |out: &[f64]| Tangent([0, 1, 2, 3, 4, 5].map(|i| out[i]));
-        chain
-            .formulas()
-            .velocity
-            .with(&chain.state(stroke, t), read)
-    };
+    let points = chain.states(stroke, nodes(stroke.period(), intervals));
+    let mut velocities = Vec::with_capacity(points.len());
+    chain.formulas().velocity.at_each(&points, &mut |_, out| {
+        velocities.push(Tangent([0, 1, 2, 3, 4, 5].map(|i| out[i])));
+    })?;
     let mut path = vec![SE3::identity()];
     let mut g = SE3::identity();
-    for n in 0..intervals {
-        let [a, b, c] = nodes().map(|c| velocity((n as f64 + c) * h));
-        g = g.compose(&SE3::exp(&magnus(h, &[a?, b?, c?])));
+    for xi in velocities.as_chunks().0 {
+        g = g.compose(&SE3::exp(&magnus(h, xi)));
         path.push(g);
     }
     Ok(path)

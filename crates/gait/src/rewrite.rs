@@ -9,8 +9,9 @@ use crate::error::GaitError;
 use crate::stroke::{Fourier, Stroke};
 use crate::tree::Moving;
 
-/// The text of a scene in which the joints of a chain do this stroke, which begins at the time `from`: each by a `motion` with
-/// `harmonics`, whatever moved it before. It starts without momentum. The rest of the text stays as it is, comments too.
+/// The text of a scene in which the joints of a chain do this stroke, which begins at the time `from`.
+///
+/// Each has a `motion` with `harmonics`, whatever moved it before. It starts without momentum. The rest of the text stays as it is, comments too.
 ///
 /// # Errors
 /// [`GaitError::Text`] where the text is not that of the chain's scene.

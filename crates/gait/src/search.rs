@@ -57,8 +57,8 @@ impl Search {
     /// With drag or thrust it is for the best steady stroke, whose gradient is by first variations through the steps.
     ///
     /// # Errors
-    /// [`GaitError`] as of [`Chain::new`] and [`Swimmer::new`]; [`GaitError::Limits`] of a limit that is not positive, or an angle above
-    /// $\pi$; without loads [`GaitError::Momentum`], and [`GaitError::Scallop`] of one coordinate;
+    /// [`GaitError`] as of [`Chain::new`] and [`Swimmer::new`]. [`GaitError::Limits`] of a limit that is not positive, or an angle above
+    /// $\pi$. Without loads [`GaitError::Momentum`], and [`GaitError::Scallop`] of one coordinate.
     /// [`GaitError::Objective`] of the work where loads act, as they do work too.
     pub fn new(scene: &Scene, objective: Objective, limits: Limits) -> Result<Self, GaitError> {
         let Limits { angle, rate } = limits;
@@ -217,29 +217,30 @@ impl Search {
 
     /// How far a stroke exceeds each limit, relative to it, at several times of the period; with the gradients.
     ///
-    /// A trigonometric polynomial of degree $K$ is nowhere larger than at the nearest of $N > 2 K$ equal times by more than
-    /// $1 / \cos(\pi K / N)$ (M. Riesz, 1914): so much nearer a limit at those times holds at all.
+    /// A trigonometric polynomial of degree $K$ is at most $1 / \cos(\pi K / N)$ times as large as at $N > 2 K$ equal times (M. Riesz, 1914).
+    /// A limit that is nearer by that at these times holds at all times.
     fn limits_of(&self, stroke: &Fourier) -> Result<Vec<(f64, Vec<f64>)>, GaitError> {
         let times = 16 * (stroke.order() + 1);
         let nearer = (PI * stroke.order() as f64 / times as f64).cos();
         let Limits { angle, rate } = self.limits;
-        let mut limits =
-            Vec::with_capacity(times * (2 * self.chain.joints().len() + self.clearance.len()));
-        for i in 0..times {
-            let t = stroke.period() * i as f64 / times as f64;
-            let [q, rates] = [0, 1].map(|k| stroke.derivative(t, k));
+        let times = (0..times).map(|i| stroke.period() * i as f64 / times as f64);
+        let shapes: Vec<Vec<f64>> = times.clone().map(|t| stroke.derivative(t, 0)).collect();
+        let overlaps = self.clearance.overlaps(&shapes)?;
+        let mut limits = Vec::new();
+        for (i, (t, q)) in times.zip(&shapes).enumerate() {
+            let rates = stroke.derivative(t, 1);
             let bases = [0, 1].map(|k| stroke.basis(t, k));
             for joint in self.chain.joints() {
-                limits.push(within(joint, &q, nearer * angle, &bases[0]));
+                limits.push(within(joint, q, nearer * angle, &bases[0]));
                 if rate.is_finite() {
                     limits.push(within(joint, &rates, nearer * rate, &bases[1]));
                 }
             }
-            for (value, slopes) in self.clearance.overlaps(&q)? {
+            for (value, slopes) in overlaps.iter().map(|of_pair| &of_pair[i]) {
                 let each = slopes
                     .iter()
                     .flat_map(|slope| bases[0].iter().map(move |phi| slope * phi));
-                limits.push((value, each.collect()));
+                limits.push((*value, each.collect()));
             }
         }
         Ok(limits)

@@ -124,8 +124,9 @@ impl Swimmer {
         &self.told
     }
 
-    /// The steady stroke that the scene's own leads to, and how many steps of Gauss's method of four stages its period took:
-    /// half as many change it by less than 1e-10, in rad and body lengths, unless they are 384.
+    /// The steady stroke that the scene's own leads to, and how many steps of Gauss's method of four stages its period took.
+    ///
+    /// Half as many steps change it by less than 1e-10, in rad and body lengths, unless they are 384.
     ///
     /// # Errors
     /// [`GaitError::Step`], [`GaitError::NotSteady`], and [`GaitError::Momentum`] where a momentum is kept.

@@ -9,8 +9,9 @@ pub(crate) fn for_each_chunk(dim: usize, body: impl FnMut(usize)) {
     (0..dim).step_by(lie::JET_DIRECTIONS).for_each(body);
 }
 
-/// Copies the derivatives of a chunk into the coordinates from `first` on; where there is no value, these are not numbers either: that of a
-/// logarithm is finite where its value is not.
+/// Copies the derivatives of a chunk into the coordinates from `first` on.
+///
+/// Where there is no value, these are not numbers either: the derivative of a logarithm is finite where its value is not.
 #[inline(always)]
 pub(crate) fn read_partials<V: VectorSpace>(
     out: &mut V,

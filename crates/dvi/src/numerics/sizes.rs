@@ -51,7 +51,7 @@ const BESIDE: f64 = 4.0 * f64::EPSILON;
 
 /// What brings the kinds to one unit: the roots of their inertias.
 ///
-/// With them it can be said whether one kind's size is rounding beside the others': a body that turns about its mass centre has no
+/// With them it can be said whether one kind's size is rounding beside the others'. A body that turns about its mass centre has no
 /// linear momentum to be relative to.
 #[derive(Clone)]
 pub(crate) struct Weights {
@@ -345,8 +345,8 @@ fn largest(numbers: &[f64]) -> f64 {
 
 /// Moves numbers so little that they cannot be told from what they were: by two units of the last place, up or down.
 ///
-/// Every other time one of its digits says whether a number goes up, else its place in the row of numbers: numbers that are equal
-/// would else move together, and what they do cancel.
+/// Every other time one of its digits says whether a number goes up, else its place in the row of numbers. Otherwise equal numbers
+/// would move together, and what they do would cancel.
 pub(crate) struct Shaker {
     time: u32,
     is_far: bool,

@@ -132,7 +132,7 @@ pub enum Hint {
         /// A step size to try, in seconds.
         h: f64,
     },
-    /// The iteration stood still just above the tolerance: rounding reaches no further.
+    /// The iteration stood still a little above the tolerance: rounding reaches no further.
     LooserTolerance {
         /// A relative tolerance to try.
         tolerance: f64,

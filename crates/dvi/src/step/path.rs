@@ -8,8 +8,8 @@ use crate::State;
 
 /// What a step, or a part of one, goes through: the states at its ends, and those between that its method solves for.
 ///
-/// What is done over the step, as work, is a sum over them, of the order of the method: of a [`Gauss`](crate::Gauss) step by its own
-/// quadrature, of a discrete Lagrangian's by the trapezoidal rule, which is as symmetric as the parts of a composition need it to be.
+/// What is done over the step, as work, is a sum over them, of the order of the method. A [`Gauss`](crate::Gauss) step has its own
+/// quadrature. A step of a discrete Lagrangian has the trapezoidal rule, whose symmetry is what the parts of a composition need.
 ///
 /// ```
 /// use dvi::{Context, Gauss, Integrator, Lagrangian, Path, System};

@@ -134,10 +134,10 @@ pub trait DiscreteLagrangian: System {
         0..0
     }
 
-    /// The [derivatives](Self::derivatives) of a step from `state`, where the [eliminated](Self::eliminated)
-    /// coordinates of `f`, and the same numbers in its coordinates `c`, are first set so that
-    /// $\mathbf D_f L_d = \mu + \mathbf D_g L_d$ holds in them, for the other coordinates of `f` as given. One method, since both
-    /// share most of their terms.
+    /// The [derivatives](Self::derivatives) of a step from `state`, once the [eliminated](Self::eliminated) coordinates are solved for.
+    ///
+    /// They are set in `f` and in its coordinates `c` so that $\mathbf D_f L_d = \mu + \mathbf D_g L_d$ holds in them. The other
+    /// coordinates of `f` stay as given. One method, since both share most of their terms.
     #[inline(always)]
     fn eliminate(
         &self,

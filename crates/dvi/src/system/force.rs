@@ -98,7 +98,7 @@ pub trait DiscreteForce {
     }
 }
 
-/// The force at the middle acts on both ends by half, each moved there by $\mathrm{Ad}^\ast$; so it keeps every momentum map
+/// The force at the middle acts on both ends by half, each moved there by $\mathrm{Ad}^\ast$. So it keeps every momentum map
 /// of a left translation that the continuous force keeps.
 impl<F: Force, R: Retraction> DiscreteForce for Discretised<F, R> {
     type Group = F::Group;

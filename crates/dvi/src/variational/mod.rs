@@ -31,8 +31,8 @@ const NORMALIZE_EVERY: u64 = 32;
 ///
 /// A step solves the momentum balance
 /// $\mathsf T_e^\ast \mathsf L_{f} \cdot \mathbf D_{f} L_d = \mathrm{Ad}^\ast_{f} \left(\mu_k + \mathsf T_e^\ast \mathsf L_{g} \cdot \mathbf D_{g} L_d\right)$
-/// for $f_k = \tau(c)$, then $g_{k+1} = g_k f_k$ and $\mu_{k+1}$ is the right-hand side: the momentum is *carried* by the
-/// coadjoint transport, so that the momentum map holds to rounding even where the balance holds to a tolerance only.
+/// for $f_k = \tau(c)$. Then $g_{k+1} = g_k f_k$, and $\mu_{k+1}$ is the right-hand side. The momentum is *carried* by the
+/// coadjoint transport: the momentum map holds to rounding even where the balance holds to a tolerance only.
 /// This is (25)–(26) of Lee, Leok & McClamroch (2009) in the form (39)–(46).
 ///
 /// The first step allocates; later ones do not, unless the state's shape changes or a long step needs another matrix
@@ -68,8 +68,8 @@ impl<L: DiscreteLagrangian> Variational<L> {
     /// The largest error of a solved step, relative; unless set, 1e-13 for up to 12 coordinates and growing as their root, as rounding
     /// does.
     ///
-    /// What is judged is the residual relative to the momentum: of all coordinates together, and of each rotation and each vector of a
-    /// product by itself, to ten times the tolerance. So neither units nor the ratio of masses matter. A correction that is negligible
+    /// What is judged is the residual relative to the momentum, of all coordinates together. Each rotation and each vector of a
+    /// product is judged by itself too, to ten times the tolerance. So neither units nor the ratio of masses matter. A correction that is negligible
     /// beside the displacement is enough too.
     ///
     /// Unless a tolerance is set, a residual that no longer shrinks is also taken for solved where rounding explains it. That is so where it

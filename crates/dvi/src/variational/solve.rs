@@ -558,8 +558,9 @@ impl<L: DiscreteLagrangian> Work<L> {
         None
     }
 
-    /// Whether what is left of the cyclic equations is small beside the momenta that they are made of, whatever the kind: the mass centre of a body that
-    /// turns about it stays, but for rounding.
+    /// Whether what is left of the cyclic equations is small beside the momenta that they are made of, whatever the kind.
+    ///
+    /// The mass centre of a body that turns about it stays, but for rounding.
     fn is_cyclic_rounding(&self, cyclic: Range<usize>) -> bool {
         let Balance {
             residual,

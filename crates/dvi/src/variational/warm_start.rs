@@ -14,7 +14,7 @@ const CHOOSE_EVERY: u32 = 16;
 /// The backward differences $\nabla^0 c, \dots, \nabla^{d+1} c$ of the solutions at equal steps.
 ///
 /// Extrapolating by degree $d$ is summing the first $d + 1$ of them, and $\nabla^{d+1} c$ is the error that this
-/// made in the last step; now and then, the degree whose error is smallest is taken for the steps to come.
+/// made in the last step. Now and then the degree whose error is smallest is taken for the steps to come.
 pub(crate) struct WarmStart {
     differences: [Vec<f64>; DEGREE + 2],
     /// Differences that are known.
