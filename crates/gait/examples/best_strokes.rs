@@ -47,8 +47,8 @@ const TASKS: [Task; 2] = [
 ];
 
 const STARTS: u64 = 10;
-/// Strokes in a row that are drawn.
-const DRAWN: u32 = 10;
+/// Strokes in a row that are drawn, of those that cost most.
+const DRAWN: f64 = 10.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut panels = Vec::new();
@@ -244,15 +244,23 @@ fn ways(task: &Task, chain: &Chain, strokes: [&Fourier; 3]) -> Result<Panel, Box
         ("at its best amplitude", Colour::Blue, Style::Dashed),
         ("best", Colour::Vermillion, Style::Solid),
     ];
+    let efforts = strokes.map(|stroke| task.effort.of(chain, stroke, 4096));
+    let efforts = efforts.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let all = DRAWN
+        * efforts
+            .iter()
+            .fold(0.0, |most: f64, effort| most.max(*effort));
     let mut lines = Vec::new();
-    for (stroke, (label, colour, style)) in strokes.into_iter().zip(labels) {
+    let each = strokes.into_iter().zip(efforts);
+    for ((stroke, effort), (label, colour, style)) in each.zip(labels) {
         let net = net_motion(chain, stroke)?;
-        let effort = task.effort.of(chain, stroke, 4096)?;
         let mut g = SE3::identity();
         let mut points = vec![(0.0, 0.0)];
-        for n in 1..=DRAWN {
+        while let Some((spent, _)) = points.last()
+            && spent + effort <= all * 1.001
+        {
             g = g.compose(&net);
-            points.push((f64::from(n) * effort, g.translation.norm()));
+            points.push((spent + effort, g.translation.norm()));
         }
         lines.push(Line {
             label: label.into(),
@@ -263,7 +271,7 @@ fn ways(task: &Task, chain: &Chain, strokes: [&Fourier; 3]) -> Result<Panel, Box
         });
     }
     Ok(Panel {
-        title: format!("{}: {DRAWN} strokes", task.name),
+        title: format!("{}: strokes in a row", task.name),
         x_label: task.label.into(),
         y_label: "distance [m]".into(),
         lines,

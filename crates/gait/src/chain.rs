@@ -80,6 +80,11 @@ impl Chain {
         self.formulas.torques.at(state.concat())
     }
 
+    /// The radius of gyration of the whole where all coordinates are zero, with what the fluid adds, m.
+    pub fn gyration(&self) -> f64 {
+        self.tree.gyration(&vec![0.0; self.dim()])
+    }
+
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
     }

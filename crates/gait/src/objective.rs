@@ -1,17 +1,16 @@
 //! What a stroke is best by.
 
-use lie::{Cotangent, LieGroup, SE3, Tangent, Vec3};
+use lie::{Cotangent, Jet, LieGroup, RealGroup, SE3, Scalar, Tangent, Vec3};
 
 use crate::chain::Chain;
 use crate::effort::Effort;
 use crate::error::GaitError;
 use crate::gradient::net_with_gradient;
 use crate::net::{net_motion, path};
-use crate::screw::repeated;
 use crate::stroke::Fourier;
 
-/// The strokes over which the distance counts: a swimmer that turns comes less far.
-pub const STROKES: u32 = 10;
+/// The way over which the distance counts, in radii of gyration: about ten lengths of a slender swimmer. One that turns comes less far.
+pub const WAY: f64 = 30.0;
 
 /// Parts of the period in which the net motion of a stroke is found.
 fn parts(stroke: &Fourier) -> usize {
@@ -26,7 +25,7 @@ fn samples(stroke: &Fourier) -> usize {
 /// What the best stroke has most of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Objective {
-    /// The distance in a stroke, m: that of [`STROKES`] strokes over their number.
+    /// The distance in a stroke, m: after so many strokes as lead along a [`WAY`], over their number.
     Advance,
     /// That over the [length](Effort::Length) of the stroke, kg^-1/2.
     AdvancePerLength,
@@ -84,7 +83,7 @@ impl Objective {
     /// [`GaitError::Shape`], and [`GaitError::Still`] where an effort is asked for and nothing moves.
     pub fn of(self, chain: &Chain, stroke: &Fourier) -> Result<f64, GaitError> {
         let g = path(chain, stroke, parts(stroke))?[parts(stroke)];
-        let gained = self.gain(&g);
+        let gained = self.gain(chain, &g);
         match self.effort() {
             None => Ok(gained),
             Some(effort) => over(gained, effort.of(chain, stroke, samples(stroke))?),
@@ -93,7 +92,7 @@ impl Objective {
 
     /// The same by rules so fine that finer ones change it by less than a part in a million.
     pub(crate) fn finely(self, chain: &Chain, stroke: &Fourier) -> Result<f64, GaitError> {
-        let gained = self.gain(&net_motion(chain, stroke)?);
+        let gained = self.gain(chain, &net_motion(chain, stroke)?);
         match self.effort() {
             None => Ok(gained),
             Some(effort) => over(gained, effort.of(chain, stroke, 16 * samples(stroke))?),
@@ -123,7 +122,7 @@ impl Objective {
         stroke: &Fourier,
         (g, motions): (SE3, Vec<Tangent<6>>),
     ) -> Result<(f64, Vec<f64>), GaitError> {
-        let (gained, slope) = self.gain_with_slope(&g);
+        let (gained, slope) = self.gain_with_slope(chain, &g);
         let slopes = motions.iter().map(|motion| slope.pair(motion));
         let Some(effort) = self.effort() else {
             return Ok((gained, slopes.collect()));
@@ -135,13 +134,13 @@ impl Objective {
         Ok((value, slopes.collect()))
     }
 
-    /// What is gained by a net motion: the distance in a stroke, m, or the turn, rad.
-    pub fn gain(self, g: &SE3) -> f64 {
-        self.gain_with_slope(g).0
+    /// What a chain gains by a net motion: the distance in a stroke, m, or the turn, rad.
+    pub fn gain(self, chain: &Chain, g: &SE3) -> f64 {
+        self.gain_with_slope(chain, g).0
     }
 
     /// The same, and its derivative by $g^{-1} \delta g$.
-    fn gain_with_slope(self, g: &SE3) -> (f64, Cotangent<6>) {
+    fn gain_with_slope(self, chain: &Chain, g: &SE3) -> (f64, Cotangent<6>) {
         match self {
             Self::Turn => {
                 let turning = g.rotation.log().unwrap_or_else(|e| e.representative).vec3();
@@ -149,7 +148,7 @@ impl Objective {
                 let axis = turning * (1.0 / turn.max(f64::MIN_POSITIVE));
                 (turn, (axis, Vec3::zero()).into())
             }
-            _ => distance(g),
+            _ => distance(g, WAY * chain.gyration()),
         }
     }
 }
@@ -162,19 +161,17 @@ fn over(gained: f64, spent: f64) -> Result<f64, GaitError> {
     }
 }
 
-/// $|d_n| / n$ of $g^n$. With $\eta = g^{-1} \delta g$ it is $g^{-n} \delta g^n = \sum_{k < n} \mathrm{Ad}_{g^{-k}} \eta$.
-fn distance(g: &SE3) -> (f64, Cotangent<6>) {
-    let end = repeated(g, STROKES);
-    let far = end.translation.norm();
-    let n = f64::from(STROKES);
-    let along = end.translation * (1.0 / (n * far.max(f64::MIN_POSITIVE)));
-    let pulled = end.rotation.inverse_rotate(along);
-    let mut slope = Cotangent::zero();
-    let back = g.inverse();
-    let mut before = SE3::identity();
-    for _ in 0..STROKES {
-        slope += before.coadjoint(&(Vec3::zero(), pulled).into());
-        before = before.compose(&back);
-    }
-    (far / n, slope)
+/// $|d_n| / n$ of $g^n = \exp(n \log g)$ with $n |d_1|$ the way; and its derivative by $g^{-1} \delta g$.
+fn distance(g: &SE3, way: f64) -> (f64, Cotangent<6>) {
+    type J = <f64 as Scalar>::Jet;
+    // A stroke that leads nowhere has a distance too.
+    let size = |x: Vec3<J>, least: f64| (x.norm_squared() + J::constant(least * least)).sqrt();
+    let change = Tangent(core::array::from_fn(|k| J::variable(0.0, k)));
+    let g = g.lift::<J>().compose(&SE3::exp(&change));
+    let strokes = J::constant(way) / size(g.translation, 1e-9 * way);
+    let screw = g.log().unwrap_or_else(|e| e.representative);
+    let end = SE3::exp(&(screw * strokes));
+    let found = size(end.translation, 1e-9 * way) / strokes;
+    let slope = core::array::from_fn(|k| found.partial(k));
+    (found.value(), Cotangent(slope))
 }

@@ -69,8 +69,3 @@ impl Screw {
         }
     }
 }
-
-/// $g^n$: so many strokes in a row.
-pub fn repeated(g: &SE3, n: u32) -> SE3 {
-    (0..n).fold(SE3::identity(), |all, _| all.compose(g))
-}

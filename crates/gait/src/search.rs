@@ -192,7 +192,7 @@ impl Search {
 
     /// What counts as nothing of the objective.
     fn least(&self) -> f64 {
-        1e-9 * self.chain.tree().gyration(&vec![0.0; self.chain.dim()])
+        1e-9 * self.chain.gyration()
     }
 
     fn evaluate(&self, stroke: &Fourier) -> Result<Evaluated, GaitError> {

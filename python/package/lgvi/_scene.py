@@ -194,7 +194,7 @@ class Scene:
     ) -> _gait.Best:
         """The stroke that has most of an objective, from the scene's own stroke and from random ones.
 
-        objective  "advance": the distance in a stroke, m, of ten strokes in a row; "advance-per-length": that over the
+        objective  "advance": the distance in a stroke, m, on a way of about ten body lengths; "advance-per-length": that over the
                    length of the stroke in the metric of the kinetic energy, kg^-1/2; "advance-per-work": that over the
                    positive work, m/J; "turn": the turn of a stroke, rad.
         order      harmonics of each shape coordinate; the period stays the scene's.

@@ -102,7 +102,7 @@ fn objective() -> impl TypedValueParser<Value = Objective> {
 
 fn help(objective: Objective) -> &'static str {
     match objective {
-        Objective::Advance => "the distance in a stroke, of ten strokes in a row",
+        Objective::Advance => "the distance in a stroke, on a way of about ten body lengths",
         Objective::AdvancePerLength => {
             "that over the length of the stroke in the metric of the kinetic energy"
         }

@@ -1,6 +1,7 @@
 //! The best strokes of a swimmer whose best ones are known.
 
-use gait::{Effort, Fourier, Limits, Objective, Search, Stroke, net_motion};
+use gait::{Effort, Fourier, Limits, Objective, Search, Stroke, WAY, net_motion};
+use lie::{LieGroup, SE3, Tangent};
 
 use crate::swimmers::three_links;
 
@@ -50,6 +51,37 @@ fn the_best_circle_is_that_which_is_known() {
     let (r, best) = best_of(ratio, [0.5, 1.5]);
     assert!((r - 1.0501).abs() < 5e-5, "{r}");
     assert!((best - 0.715573154).abs() < 5e-10, "{best}");
+}
+
+/// The distance in a stroke is that after so many strokes as lead along the way, where these are a whole number.
+#[test]
+fn the_distance_is_that_of_strokes_in_a_row() {
+    let search = search();
+    let way = WAY * search.chain().gyration();
+    for (n, turn) in [(4, 0.3), (30, 0.05), (30, 0.0), (400, 0.004)] {
+        let screw = |size: f64| {
+            Tangent([
+                0.2 * turn,
+                0.1 * turn,
+                turn,
+                0.9 * size,
+                -0.3 * size,
+                0.1 * size,
+            ])
+        };
+        let far = |size: f64| SE3::exp(&screw(size)).translation.norm();
+        let step = way / f64::from(n);
+        let size = (0..60).fold(step, |size, _| size * step / far(size));
+        let g = SE3::exp(&screw(size));
+        let end = (0..n).fold(SE3::identity(), |all: SE3, _| all.compose(&g));
+        let expected = end.translation.norm() / f64::from(n);
+        let found = Objective::Advance.gain(search.chain(), &g);
+        // Rounding of the strokes in a row.
+        assert!(
+            (found - expected).abs() < 1e-12 * way,
+            "{n}: {found} {expected}"
+        );
+    }
 }
 
 /// The best ellipse of the family $r$, $\varphi$, found without a gradient.
