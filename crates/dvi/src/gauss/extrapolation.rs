@@ -30,9 +30,9 @@ fn degree(stages: usize, steps: usize) -> usize {
 }
 
 /// The matrix that takes values at the stages of the last `steps` steps, the oldest first, to those at the stages of the
-/// next, `ratio` times as long: the polynomial of a [`degree`] nearest to the values in the $b$-weighted mean square,
-/// continued.
+/// next, `ratio` times as long.
 ///
+/// It continues the polynomial of a [`degree`] that is nearest to the values in the $b$-weighted mean square.
 /// Through all the values it would go at the highest degree, which extrapolates badly. By polynomials orthogonal on the
 /// stages, from their three-term recurrence (G. E. Forsythe, *J. SIAM* 5, 1957).
 pub(super) fn extrapolation(tableau: &Tableau, steps: usize, ratio: f64) -> Rows {

@@ -29,16 +29,17 @@ use solver::Solver;
 ///
 /// It is the extremum of the discrete Lagrangian
 /// $L_d(g_k, f) = \operatorname{ext} h \sum_i b_i L(t_i, g_k \tau(c_i), \mathrm d\tau_{c_i} \dot c_i)$ over the rates $\dot c_i$ with
-/// $c_i = h \sum_j a_{ij} \dot c_j$ and $f = \tau(h \sum_j b_j \dot c_j)$: symplectic by construction, and with the momentum maps of the
-/// symmetries that it inherits: translations of the group, and its automorphisms that the retraction commutes with, such as a turn of space on a direct product. In the Hamiltonian form that it is solved in, with velocities $\xi_i$ and forces $\tau_i$ of the
+/// $c_i = h \sum_j a_{ij} \dot c_j$ and $f = \tau(h \sum_j b_j \dot c_j)$. So it is symplectic by construction, and keeps the momentum maps of the
+/// symmetries that it inherits. These are translations of the group, and its automorphisms that the retraction commutes with, such as a turn of space on a
+/// direct product. It is solved in the Hamiltonian form, with velocities $\xi_i$ and forces $\tau_i$ of the
 /// [`ContinuousSystem`] at $(g_i, \mu_i)$:
 ///
 /// $$ P = \mu_k + h \sum_i b_i \mathrm{Ad}^\ast_{f_i^{-1}} \tau_i, \qquad \mu_{k+1} = \mathrm{Ad}^\ast_f P, \qquad \pi_1 = (\mathrm d\tau_{c_1})^\ast \mu_{k+1}, $$
 /// $$ \pi_i = \pi_1 - h \sum_j (b_j - a_{ij}) \dot\pi_j, \qquad \mu_i = (\mathrm d\tau_{c_i}^{-1})^\ast \pi_i, $$
 /// $$ \dot c_i = \mathrm d\tau_{c_i}^{-1} \xi_i, \qquad \dot\pi_i = (\mathrm d\tau_{c_i})^\ast \tau_i - \partial_c \langle \pi_i, \mathrm d\tau_c^{-1} \xi_i \rangle. $$
 ///
-/// The chart is centred anew at every $g_k$. That $P$, and not $\mu_k$, goes with it is what keeps the symplectic form: the
-/// base point moves with the state, and its derivative is part of the balance.
+/// The chart is centred anew at every $g_k$. Using $P$ instead of $\mu_k$ makes the step symplectic: it accounts for the chart's
+/// base point moving with the state.
 ///
 /// The stages of a sweep are evaluated side by side, in the widest SIMD [lanes](lie::lanes) that the processor has, where the system
 /// [allows it](ContinuousSystem::INLINE) or is [recorded](ContinuousSystem::recorded). The integrator owns its system, which borrows nothing: clone it, or share it.
@@ -106,7 +107,7 @@ impl<C: ContinuousSystem + 'static> Gauss<C> {
 
     /// The largest error of a solved step that is left by iterating, estimated and relative; zero, the default, iterates to rounding.
     ///
-    /// Momentum maps of left translations, and of cyclic coordinates, do not feel it; those of other symmetries and the energy do, where it
+    /// Momentum maps of left translations, and of cyclic coordinates, do not feel it. Those of other symmetries and the energy do, where it
     /// is looser than the method's own error of a step.
     pub fn with_tolerance(mut self, tolerance: f64) -> Self {
         self.solver.limits.tolerance = tolerance;

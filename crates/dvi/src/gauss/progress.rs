@@ -14,9 +14,9 @@ const KNOWN_BETTER: f64 = 0.01;
 pub(super) const STAYS: f64 = 0.5;
 /// Noise is measured only below this change: above, the iteration diverges.
 pub(super) const MEASURES_BELOW: f64 = 1e-4;
-/// Corrections of $\pi_0$ at rounding, each of which begins anew, after which rates and $\pi_0$ go round in a circle: from one to the next no change
-/// has become smaller than this part.
+/// Corrections of $\pi_0$ at rounding after which rates and $\pi_0$ go round in a circle; each begins anew.
 const CORRECTIONS: u32 = 3;
+/// In a circle no change becomes smaller than this part from one correction to the next.
 const CIRCLES: f64 = 0.9;
 
 /// Whether it is time to look at $\pi_0$.

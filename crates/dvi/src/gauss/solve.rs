@@ -177,7 +177,7 @@ impl<C: ContinuousSystem, S: Batch<Item = f64>> Work<C, S> {
     /// Sweeps until the estimated error is below the tolerance, or rounding.
     ///
     /// The stages start from $\pi_0 = \mu_k + d$. At the solution $d$ is what the moving base point asks for, tiny and
-    /// hardly dependent on the rates; but taken from unfinished rates it would feed all of their error back, undamped by the
+    /// hardly dependent on the rates. Taken from unfinished rates it would feed all of their error back, undamped by the
     /// small eigenvalues of $a_{ij}$. So it is kept until it is known better than it changes.
     fn iterate<R: Retraction>(
         &mut self,

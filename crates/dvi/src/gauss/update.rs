@@ -10,16 +10,17 @@ use crate::{ContinuousSystem, State};
 /// The compensated sum drifts off by rounding of the increments alone; a correction costs one rounding of the whole.
 const NORMALIZE_EVERY: u64 = 1024;
 
-/// Where the momentum in the frame of the identity is this much larger than in the body's, its sum would lose digits: far from
-/// the origin, $x \times p$ outweighs the rest on a semidirect product.
+/// Where the momentum in the frame of the identity is this much larger than in the body's, its sum would lose digits.
+///
+/// On a semidirect product $x \times p$ outweighs the rest far from the origin.
 const FAR: f64 = 8.0;
 /// Steps from one look at that to the next.
 const LOOKS_EVERY: u32 = 8;
 
 /// What is carried from a step to the next beside the state.
 ///
-/// The momentum in the frame of the identity, $\mathrm{Ad}^\ast_{g_k^{-1}} \mu_k$, changes by the impulse alone and is
-/// summed with Kahan's compensation, as are the numbers of the configuration where they are sums of increments.
+/// The momentum in the frame of the identity, $\mathrm{Ad}^\ast_{g_k^{-1}} \mu_k$, changes by the impulse alone. It is
+/// summed with Kahan's compensation. So are the numbers of the configuration where they are sums of increments.
 pub(super) struct Update<G: RealGroup> {
     /// The state that the carried numbers belong to.
     after: State<G>,
