@@ -90,7 +90,7 @@ fn picture(scene: &Scene, chain: &Chain, maps: &HeightMaps) -> Figure {
         labels: Labels::Ends,
         plot_height: HEIGHT,
         notes: vec![
-            "Height functions in the body coordinates whose connection is least over the map. Red is positive, of a loop from the first coordinate to the second.".to_owned(),
+            "Height functions in the body coordinates whose connection is least over the map. Orange is positive, of a loop from the first coordinate to the second.".to_owned(),
             format!("Net motion without momentum and loads, by the areas (turn, rad; advance, m): {}. Exactly: {}.", told(&by_area), told(&exact)),
         ],
         panels,
